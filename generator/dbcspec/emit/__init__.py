@@ -1,0 +1,1 @@
+"""The model to files: each module makes bytes and touches no disk."""

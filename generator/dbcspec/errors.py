@@ -1,0 +1,67 @@
+"""What can go wrong, where it stands, and the exceptions that say so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Location:
+    """A place in a text file; line and column count from 1."""
+
+    path: str
+    line: int = 1
+    column: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}:{self.column}"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Fault:
+    """One thing wrong in a file that a person wrote: where, and what to do."""
+
+    where: Location
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.text}"
+
+
+class DbcspecError(Exception):
+    """Base of all errors that this package raises on purpose."""
+
+
+class SpecError(DbcspecError):
+    """The spec cannot be read as it stands; ``faults`` has every reason, in file order."""
+
+    def __init__(self, faults: Iterable[Fault]) -> None:
+        self.faults = tuple(sorted(set(faults)))
+        self.location = self.faults[0].where
+        super().__init__("\n".join(map(str, self.faults)))
+
+    @classmethod
+    def at(cls, where: Location, text: str) -> SpecError:
+        """The error for a single fault."""
+        return cls([Fault(where, text)])
+
+
+class FindingsError(DbcspecError):
+    """The spec was read, but the linter has findings that forbid going on."""
+
+    def __init__(self, findings: Iterable[object]) -> None:
+        self.findings = tuple(findings)
+        super().__init__("\n".join(map(str, self.findings)))
+
+
+class StaleArtifactError(DbcspecError):
+    """Generated files on disk are not what the spec makes; ``reports`` has one per file."""
+
+    def __init__(self, reports: Iterable[str]) -> None:
+        self.reports = tuple(reports)
+        super().__init__("\n".join(self.reports))
+
+
+class ReadError(DbcspecError):
+    """A file or a configuration cannot be used: one line that says which and why."""

@@ -1,0 +1,34 @@
+"""Bit arithmetic: which bits of a frame a signal takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dbcspec.model import ByteOrder, Signal
+
+
+def bits(signal: Signal) -> tuple[int, ...]:
+    """The frame bits of a signal from its least to its most significant one.
+
+    Bit 0 is the least significant bit of byte 0, bit 8 that of byte 1. Bits past the end of the
+    frame are listed like any other, so that a caller can see them.
+    """
+    if signal.byte_order is ByteOrder.INTEL:
+        return tuple(range(signal.start, signal.start + signal.length))
+    return tuple(reversed(tuple(_downwards(signal.start, signal.length))))
+
+
+def _downwards(start: int, length: int) -> Iterator[int]:
+    """Motorola order: down to bit 0 of a byte, then on at bit 7 of the next."""
+    bit = start
+    for _ in range(length):
+        yield bit
+        bit = bit + 15 if bit % 8 == 0 else bit - 1
+
+
+def whole_byte(signal: Signal) -> int | None:
+    """The byte that the signal fills exactly, or None."""
+    taken = sorted(bits(signal))
+    if len(taken) == 8 and taken[0] % 8 == 0 and taken[-1] == taken[0] + 7:
+        return taken[0] // 8
+    return None

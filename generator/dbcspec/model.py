@@ -1,0 +1,259 @@
+"""The waist of the toolchain: one frozen description of a CAN protocol.
+
+Everything that reads a protocol ends here, everything that lints, compares or emits one starts
+here. Start bits are counted as DBC files count them: bit 0 is the least significant bit of byte
+0, an Intel signal starts at its least and a Motorola signal at its most significant bit.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, is_dataclass
+from decimal import Decimal
+from enum import Enum
+from functools import cached_property
+
+from dbcspec.errors import Location
+
+NOWHERE = Location("")
+
+
+class ByteOrder(Enum):
+    """How the bits of a signal follow each other."""
+
+    INTEL = "Intel"
+    MOTOROLA = "Motorola"
+
+
+class SendType(Enum):
+    """When a message is sent, as GenMsgSendType numbers it."""
+
+    CYCLIC = 0
+    IF_ACTIVE = 7
+    EVENT = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """One raw value with a meaning: the label as printed and in English."""
+
+    value: int
+    label: str
+    english: str
+
+
+@dataclass(frozen=True, slots=True)
+class ValueTable:
+    """The codes of one or more signals, ascending by value."""
+
+    name: str
+    codes: tuple[Code, ...]
+
+    def labels(self, *, english: bool = True) -> dict[int, str]:
+        """Raw value to label."""
+        return {code.value: code.english if english else code.label for code in self.codes}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Signal:
+    """A value in a message. Physical value = raw value x factor + offset."""
+
+    name: str
+    title: str = ""
+    english: str = ""
+    start: int
+    length: int
+    byte_order: ByteOrder = ByteOrder.INTEL
+    signed: bool = False
+    factor: Decimal = Decimal(1)
+    offset: Decimal = Decimal(0)
+    minimum: Decimal
+    maximum: Decimal
+    unit: str = ""
+    value_table: ValueTable | None = None
+    invalid_code: int | None = None
+    abnormal_code: int | None = None
+    start_value: int = 0
+    receivers: tuple[str, ...] = ()
+    python_name: str = ""
+    reference: str = ""
+    errata: tuple[str, ...] = ()
+    where: Location = field(default=NOWHERE, compare=False)
+
+    @property
+    def raw_limits(self) -> tuple[int, int]:
+        """The smallest and largest value that the bits can hold."""
+        if self.signed:
+            return -(1 << (self.length - 1)), (1 << (self.length - 1)) - 1
+        return 0, (1 << self.length) - 1
+
+    @property
+    def raw_range(self) -> tuple[int, int]:
+        """The raw values of minimum and maximum, in ascending order, rounded inwards."""
+        low, high = sorted(
+            ((self.minimum - self.offset) / self.factor, (self.maximum - self.offset) / self.factor)
+        )
+        return -int(-low // 1), int(high // 1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Checksum:
+    """A checksum over the bytes first to last, carried by a signal of one whole byte."""
+
+    signal: str
+    algorithm: str
+    first_byte: int
+    last_byte: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Counter:
+    """An alive counter that runs 0 to modulus - 1."""
+
+    signal: str
+    modulus: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Message:
+    """What one identifier carries. ``period`` is in ms, None where it is sent on events only."""
+
+    name: str
+    title: str = ""
+    english: str = ""
+    frame_id: int
+    extended: bool = True
+    length: int
+    sender: str
+    period: int | None = None
+    send_type: SendType = SendType.EVENT
+    condition: str = ""
+    signals: tuple[Signal, ...] = ()
+    checksum: Checksum | None = None
+    counter: Counter | None = None
+    reference: str = ""
+    errata: tuple[str, ...] = ()
+    where: Location = field(default=NOWHERE, compare=False)
+
+    @property
+    def receivers(self) -> tuple[str, ...]:
+        """Who receives any of its signals, in order of appearance."""
+        return tuple(dict.fromkeys(name for sig in self.signals for name in sig.receivers))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Node:
+    """A participant; ``address`` is its J1939 source address."""
+
+    name: str
+    title: str = ""
+    english: str = ""
+    address: int | None = None
+    other_addresses: tuple[int, ...] = ()
+    errata: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bus:
+    """A physical bus: its bit rate in bit/s and who is on it."""
+
+    name: str
+    title: str = ""
+    english: str = ""
+    bit_rate: int
+    nodes: tuple[str, ...]
+    errata: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Erratum:
+    """A reading that differs from print, for people."""
+
+    id: str
+    kind: str
+    place: str
+    printed: str
+    reading: str
+    because: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Transfer:
+    """A value split over several frames; names are signal and message names."""
+
+    name: str
+    english: str
+    messages: tuple[str, ...]
+    items: tuple[str, ...]
+    count: int | None = None
+    count_signal: str = ""
+    frame_number: str = ""
+    group: str = ""
+    groups_signal: str = ""
+    length_signal: str = ""
+    numbered_within_group: bool = False
+    fill: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """A code of a signal that asks for messages, and the code that withdraws the request."""
+
+    signal: str
+    code: int
+    withdraw: int | None
+    answers: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Protocol:
+    """A whole protocol, every correction applied."""
+
+    name: str
+    number: str = ""
+    title: str = ""
+    english: str = ""
+    edition: str = ""
+    frame_format: str = "ExtendedCAN"
+    nodes: tuple[Node, ...] = ()
+    buses: tuple[Bus, ...] = ()
+    messages: tuple[Message, ...] = ()
+    value_tables: tuple[ValueTable, ...] = ()
+    transfers: tuple[Transfer, ...] = ()
+    requests: tuple[Request, ...] = ()
+    errata: tuple[Erratum, ...] = ()
+
+    def signals(self) -> Iterator[tuple[Message, Signal]]:
+        """Every signal with its message, in order."""
+        for message in self.messages:
+            for signal in message.signals:
+                yield message, signal
+
+    def message(self, name: str) -> Message:
+        """The message of that name; raises `KeyError`."""
+        for message in self.messages:
+            if message.name == name:
+                return message
+        raise KeyError(name)
+
+    @cached_property
+    def digest(self) -> str:
+        """16 hexadecimal digits that change whenever anything but a location changes."""
+        return hashlib.sha256(_canonical(self).encode()).hexdigest()[:16]
+
+
+def _canonical(value: object) -> str:
+    """The value as text that depends on nothing but the value."""
+    if is_dataclass(value):
+        inner = ",".join(
+            f"{part.name}={_canonical(getattr(value, part.name))}"
+            for part in fields(value)
+            if part.compare
+        )
+        return f"{type(value).__name__}({inner})"
+    if isinstance(value, tuple):
+        return f"({','.join(map(_canonical, value))})"
+    if isinstance(value, Decimal):
+        return format(value.normalize(), "f")
+    return repr(value.name) if isinstance(value, Enum) else repr(value)

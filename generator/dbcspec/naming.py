@@ -1,0 +1,69 @@
+"""Names for DBC files and for Python."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Iterable, Sequence
+
+LONGEST_NAME = 32
+"""Characters that DBC tools accept in a name."""
+
+_DBC_WORDS = frozenset({"M", "m", "INT", "HEX", "FLOAT", "ENUM", "STRING"})
+_DBC_KEYWORD = re.compile(
+    r"VERSION|NS_|BS_|BU_|BO_|SG_|CM_|VAL_|VAL_TABLE_|EV_|SIG_\w*|BA_\w*|CAT_\w*|FILTER|NS_DESC_"
+)
+
+
+def name_fault(name: str) -> str | None:
+    """What keeps a name from being a DBC name, or None."""
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
+        return "is not an identifier (letters, digits and underscores)"
+    if not 2 <= len(name) <= LONGEST_NAME:
+        return f"has {len(name)} characters; 2 to {LONGEST_NAME} are allowed"
+    if name in _DBC_WORDS or _DBC_KEYWORD.fullmatch(name):
+        return "is a word of the DBC language"
+    return None
+
+
+def snake_case(name: str) -> str:
+    """``MaxLmt_DisChgCurr`` to ``max_lmt_dis_chg_curr``; never a Python keyword."""
+    parted = re.sub(r"([A-Z]+)([A-Z][a-z])", r"\1_\2", name)
+    parted = re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", parted)
+    snake = re.sub(r"_+", "_", parted).strip("_").lower()
+    if not snake or snake[0].isdigit():
+        snake = f"_{snake}"
+    return f"{snake}_" if keyword.iskeyword(snake) else snake
+
+
+def shared_prefix(names: Sequence[str]) -> str:
+    """The longest beginning, up to an underscore, that all names have and none consists of."""
+    if len(names) < 2:
+        return ""
+    shortest, longest = min(names), max(names)
+    length = next(
+        (i for i, (a, b) in enumerate(zip(shortest, longest, strict=False)) if a != b),
+        min(len(shortest), len(longest)),
+    )
+    return shortest[: shortest.rfind("_", 0, length) + 1]
+
+
+def field_name(signal: str, prefixes: Iterable[str]) -> str:
+    """The Python field of a signal: without the first prefix it has, in snake case."""
+    for prefix in sorted(prefixes, key=len, reverse=True):
+        if prefix and signal.startswith(prefix) and signal != prefix:
+            return snake_case(signal[len(prefix) :])
+    return snake_case(signal)
+
+
+def member_names(labels: Sequence[tuple[int, str]]) -> dict[int, str]:
+    """Enum member names for codes with ASCII labels; repeated ones get their code appended."""
+    members: dict[int, str] = {}
+    for value, label in labels:
+        name = re.sub(r"[^A-Za-z0-9]+", "_", label).strip("_").upper() or "CODE"
+        members[value] = f"_{name}" if name[0].isdigit() else name
+    counts = list(members.values())
+    return {
+        value: f"{name}_{value}" if counts.count(name) > 1 else name
+        for value, name in members.items()
+    }

@@ -1,0 +1,286 @@
+"""Corrected rows to the model: joins layout and meaning, and insists that nothing is missing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from decimal import Decimal
+from typing import TypeVar
+
+from dbcspec import model
+from dbcspec.errors import Fault, SpecError
+from dbcspec.layout import whole_byte
+from dbcspec.naming import field_name, shared_prefix
+from dbcspec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
+from dbcspec.schema import Record
+from dbcspec.value_tables import ValueTables
+
+T = TypeVar("T")
+
+_SEND_TYPES = {
+    "Cyclic": model.SendType.CYCLIC,
+    "IfActive": model.SendType.IF_ACTIVE,
+    "Event": model.SendType.EVENT,
+}
+
+
+def resolve(spec: Spec, name: str) -> model.Protocol:
+    """Build the protocol called ``name``; raises `SpecError` with everything that is missing.
+
+    A signal that no table explains is left out, and names of nodes are taken as they stand: the
+    linter reports both.
+    """
+    resolver = _Resolver(spec)
+    protocol = resolver.protocol(name)
+    if resolver.faults:
+        raise SpecError(resolver.faults)
+    return protocol
+
+
+class _Resolver:
+    def __init__(self, spec: Spec) -> None:
+        self._spec = spec
+        self.faults: list[Fault] = []
+        self._aliases = {
+            alias: node.name
+            for node in spec.standard.nodes
+            for alias in (node.name, *node.aliases)
+        }
+        self._rows: dict[str, list[tuple[SignalTable, SignalRow]]] = {}
+        for table, row in spec.rows():
+            self._rows.setdefault(row.name, []).append((table, row))
+        self._value_tables = ValueTables(spec, self.faults)
+        self._conditions = {
+            message: timing.condition
+            for timing in spec.behaviour.timing
+            for message in timing.messages
+        }
+        self._units = spec.standard.units
+
+    def protocol(self, name: str) -> model.Protocol:
+        standard = self._spec.standard
+        messages = tuple(self._message(row) for row in self._spec.messages.messages)
+        self._check_names(messages)
+        return model.Protocol(
+            name=name,
+            number=standard.number,
+            title=_joined(standard.title, standard.part_title),
+            english=_joined(standard.english, standard.part_english),
+            edition=standard.edition,
+            frame_format=standard.frame_format or "ExtendedCAN",
+            nodes=tuple(
+                model.Node(
+                    name=node.name,
+                    title=node.title,
+                    english=node.english,
+                    address=node.address,
+                    other_addresses=node.other_addresses,
+                    errata=node.marks,
+                )
+                for node in standard.nodes
+            ),
+            buses=tuple(
+                model.Bus(
+                    name=bus.name,
+                    title=bus.title,
+                    english=bus.english,
+                    bit_rate=self._given(bus, "bit_rate", bus.bit_rate, 0),
+                    nodes=bus.nodes,
+                    errata=bus.marks,
+                )
+                for bus in standard.buses
+            ),
+            messages=messages,
+            value_tables=self._value_tables.used(),
+            transfers=tuple(self._transfers()),
+            requests=tuple(
+                model.Request(
+                    signal=row.signal, code=row.code, withdraw=row.withdraw, answers=row.answers
+                )
+                for row in self._spec.behaviour.requests
+            ),
+            errata=tuple(
+                model.Erratum(
+                    id=row.id,
+                    kind=row.kind,
+                    place=row.place,
+                    printed=row.printed,
+                    reading=row.reading,
+                    because=row.because,
+                )
+                for row in self._spec.errata
+            ),
+        )
+
+    def _given(self, record: Record, key: str, value: T | None, instead: T) -> T:
+        """The value, or a fault that it is missing."""
+        if value is None:
+            text = f"{record.identity}: {key} is missing, and no erratum gives it"
+            self.faults.append(Fault(record.where_is(key), text))
+            return instead
+        return value
+
+    def _message(self, row: MessageRow) -> model.Message:
+        fields = [
+            field for field in row.signals if field.name not in self._spec.standard.reserved
+        ]
+        prefixes = (*row.prefixes, f"{row.name}_", shared_prefix([field.name for field in fields]))
+        counters = {counter.signal for counter in self._spec.behaviour.counters}
+        checksums = {checksum.signal for checksum in self._spec.behaviour.checksums}
+        signals = tuple(
+            self._signal(row, field, prefixes, field.name in counters | checksums)
+            for field in fields
+            if field.name in self._rows
+        )
+        explained = [entry for field in fields for entry in self._rows.get(field.name, ())[:1]]
+        routes = [signal_row.route for _, signal_row in explained if signal_row.route]
+        tables = {id(table): table for table, _ in explained}.values()
+        period = self._given(row, "period", row.period, 0)
+        return model.Message(
+            name=row.name,
+            title=" + ".join(table.title for table in tables),
+            english=row.english,
+            frame_id=row.id,
+            extended=(self._spec.standard.frame_format or "ExtendedCAN") != "StandardCAN",
+            length=self._given(row, "length", row.length, 8),
+            sender=self._node(routes[0][0]) if routes else "",
+            period=period or None,
+            send_type=_SEND_TYPES[self._given(row, "type", row.type, "Event")],
+            condition=self._conditions.get(row.name, ""),
+            signals=signals,
+            checksum=self._checksum(row, signals),
+            counter=self._counter(signals),
+            reference=", ".join((self._spec.messages.annex, *map(_table_reference, tables))),
+            errata=row.marks,
+            where=row.where,
+        )
+
+    def _node(self, printed: str) -> str:
+        return self._aliases.get(printed, printed)
+
+    def _signal(
+        self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], filled_in: bool
+    ) -> model.Signal:
+        rows = self._rows[field.name]
+        row = rows[0][1]
+        low, high = self._given(row, "range", row.range, (Decimal(0), Decimal(1)))
+        receivers = self._given(row, "route", row.route, ("", ()))[1]
+        factor = self._given(row, "factor", row.factor, Decimal(1))
+        if not factor:
+            self.faults.append(Fault(row.where_is("factor"), f"{row.name}: factor is 0"))
+            factor = Decimal(1)
+        value_table = self._value_tables.of(row)
+        standard = self._spec.standard
+        invalid = _code_labelled(row.labels, standard.invalid_labels)
+        unit = self._given(row, "unit", row.unit, "")
+        marks = dict.fromkeys(
+            mark for record in (field, *(row for _, row in rows)) for mark in record.marks
+        )
+        return model.Signal(
+            name=field.name,
+            title=row.title,
+            english=row.english,
+            start=self._given(field, "start", field.start, 0),
+            length=self._given(field, "length", field.length, 1),
+            byte_order=model.ByteOrder(message.byte_order or self._spec.messages.byte_order),
+            factor=factor,
+            offset=self._given(row, "offset", row.offset, Decimal(0)),
+            minimum=low,
+            maximum=high,
+            unit=self._units.get(unit, unit),
+            value_table=value_table,
+            invalid_code=invalid,
+            abnormal_code=_code_labelled(row.labels, standard.abnormal_labels),
+            start_value=0 if invalid is None or filled_in else invalid,
+            receivers=tuple(map(self._node, receivers)),
+            python_name=field.field or field_name(field.name, prefixes),
+            reference=", ".join(_row_reference(*entry) for entry in rows),
+            errata=tuple(sorted(marks)),
+            where=field.where,
+        )
+
+    def _checksum(
+        self, message: MessageRow, signals: tuple[model.Signal, ...]
+    ) -> model.Checksum | None:
+        by_name = {signal.name: signal for signal in signals}
+        for row in self._spec.behaviour.checksums:
+            if row.signal in by_name:
+                if whole_byte(by_name[row.signal]) is None:
+                    text = f"{row.signal}: a checksum must fill one whole byte"
+                    self.faults.append(Fault(row.where, text))
+                covered = self._given(row, "bytes", row.bytes, (Decimal(0), Decimal(0)))
+                if not 0 <= covered[0] <= covered[1] < (message.length or 0):
+                    text = f"{row.signal}: bytes {covered[0]}~{covered[1]} are not in the message"
+                    self.faults.append(Fault(row.where_is("bytes"), text))
+                return model.Checksum(
+                    signal=row.signal,
+                    algorithm=self._given(row, "algorithm", row.algorithm, ""),
+                    first_byte=int(covered[0]),
+                    last_byte=int(covered[1]),
+                )
+        return None
+
+    def _counter(self, signals: tuple[model.Signal, ...]) -> model.Counter | None:
+        names = {signal.name for signal in signals}
+        for row in self._spec.behaviour.counters:
+            if row.signal in names:
+                modulus = self._given(row, "modulus", row.modulus, 1)
+                return model.Counter(signal=row.signal, modulus=modulus)
+        return None
+
+    def _transfers(self) -> Iterable[model.Transfer]:
+        for row in self._spec.behaviour.transfers:
+            yield model.Transfer(
+                name=row.name,
+                english=row.english,
+                messages=row.messages,
+                items=row.items,
+                count=row.count,
+                count_signal=row.count_signal,
+                frame_number=row.frame_number,
+                group=row.group,
+                groups_signal=row.groups_signal,
+                length_signal=row.length_signal,
+                numbered_within_group=row.numbering == "within_group",
+                fill=row.fill,
+            )
+
+    def _check_names(self, messages: tuple[model.Message, ...]) -> None:
+        """Behaviour may only speak of messages and signals that there are."""
+        names = {message.name for message in messages}
+        signals = {field.name for _, field in self._spec.fields()}
+        behaviour = self._spec.behaviour
+        for rows, key, known in (
+            (behaviour.checksums, "signal", signals),
+            (behaviour.counters, "signal", signals),
+            (behaviour.requests, "signal", signals),
+            (behaviour.requests, "answers", names),
+            (behaviour.timing, "messages", names),
+            (behaviour.transfers, "messages", names),
+            *(
+                (behaviour.transfers, key, signals)
+                for key in ("items", "count_signal", "frame_number", "group", "groups_signal")
+            ),
+            (behaviour.transfers, "length_signal", signals),
+        ):
+            for row in rows:
+                value = getattr(row, key)
+                for name in (value,) if isinstance(value, str) else value:
+                    if name and name not in known:
+                        text = f"{key}: there is no {name!r}"
+                        self.faults.append(Fault(row.where_is(key), text))
+
+
+def _joined(title: str, part: str) -> str:
+    return f"{title}: {part}" if part else title
+
+
+def _row_reference(table: SignalTable, row: SignalRow) -> str:
+    return f"Table {table.number} row {row.no} ({table.clause})"
+
+
+def _table_reference(table: SignalTable) -> str:
+    return f"Table {table.number} ({table.clause})"
+
+
+def _code_labelled(codes: Mapping[int, str], labels: tuple[str, ...]) -> int | None:
+    return next((code for code, label in codes.items() if label in labels), None)

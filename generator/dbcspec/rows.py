@@ -1,0 +1,413 @@
+"""The spec as typed rows, in the order and with the values of the printed document.
+
+A row may lack what the print lacks; errata fill the gaps, `resolve` insists that none is left.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+from typing import Any, ClassVar
+
+from dbcspec.errors import Fault, Location, SpecError
+from dbcspec.schema import (
+    DECIMAL,
+    INTEGER,
+    NAME,
+    RANGE,
+    ROUTE,
+    TEXT,
+    Kind,
+    Record,
+    RecordT,
+    expect_text,
+    expect_table,
+    key,
+    list_of,
+    map_of,
+    nested,
+    one_of,
+    raw,
+)
+from dbcspec.source import Node, read_yaml
+
+
+@dataclass(frozen=True, slots=True)
+class SameCodes:
+    """A code cell that prints again what another row of the same table prints."""
+
+    row: str
+
+
+_CODES = map_of(INTEGER, TEXT)
+
+
+def _read_codes(node: Node) -> Mapping[int, str] | SameCodes:
+    entries = expect_table(node).entries
+    if [name.text for name, _ in entries] == ["same_as"]:
+        return SameCodes(expect_text(entries[0][1]))
+    codes: Mapping[int, str] = _CODES.read(node)
+    return codes
+
+
+CODES = Kind("codes and their labels", _read_codes, _CODES.schema)
+LIST_OF_TEXT = list_of(TEXT)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NodeRow(Record):
+    """A participant on the bus."""
+
+    name: str = key(NAME, "its one name", required=True)
+    english: str = key(TEXT, "what it is", required=True)
+    title: str = key(TEXT, "its name in the language of the standard", default="")
+    address: int | None = key(INTEGER, "its J1939 source address")
+    other_addresses: tuple[int, ...] = key(list_of(INTEGER), "further source addresses", default=())
+    aliases: tuple[str, ...] = key(LIST_OF_TEXT, "other names that the print uses", default=())
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BusRow(Record):
+    """A physical bus and who is on it."""
+
+    name: str = key(NAME, "its name, used for file names", required=True)
+    english: str = key(TEXT, "what it is", required=True)
+    title: str = key(TEXT, "its name in the language of the standard", default="")
+    bit_rate: int | None = key(INTEGER, "bit/s")
+    nodes: tuple[str, ...] = key(list_of(NAME), "the nodes on it", default=())
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Standard(Record):
+    """standard.yaml: the document itself, its nodes and buses, and its conventions."""
+
+    number: str = key(TEXT, "the number of the standard", required=True)
+    title: str = key(TEXT, "its title", required=True)
+    english: str = key(TEXT, "its title in English", required=True)
+    part: int | None = key(INTEGER, "the number of the part")
+    part_title: str = key(TEXT, "the title of the part", default="")
+    part_english: str = key(TEXT, "the title of the part in English", default="")
+    edition: str = key(TEXT, "edition or state", default="")
+    nodes: tuple[NodeRow, ...] = key(list_of(nested(NodeRow)), "the nodes", default=())
+    buses: tuple[BusRow, ...] = key(list_of(nested(BusRow)), "the buses", default=())
+    frame_format: str = key(
+        one_of("StandardCAN", "ExtendedCAN", "J1939PG"), "VFrameFormat of the messages"
+    )
+    reserved: tuple[str, ...] = key(LIST_OF_TEXT, "names of fields that are no signals", default=())
+    units: Mapping[str, str] = key(map_of(TEXT, TEXT), "printed unit: its ASCII form", default={})
+    invalid_labels: tuple[str, ...] = key(LIST_OF_TEXT, "labels of an invalid signal", default=())
+    abnormal_labels: tuple[str, ...] = key(LIST_OF_TEXT, "labels of an abnormal value", default=())
+    value_tables: Mapping[str, str] = key(
+        map_of(NAME, NAME), "value table name: a signal that has these codes", default={}
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FieldRow(Record):
+    """A signal's place in its frame: a row of the annex."""
+
+    name: str = key(NAME, "signal name", required=True)
+    length: int | None = key(INTEGER, "bits")
+    start: int | None = key(INTEGER, "start bit as printed, counted from bit 0")
+    field: str = key(NAME, "name in generated code, where the derived one is poor", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MessageRow(Record):
+    """A message of the annex."""
+
+    MAIN: ClassVar[str] = "signals"
+
+    id: int = key(INTEGER, "29-bit or 11-bit identifier", required=True)
+    name: str = key(NAME, "message name", required=True)
+    english: str = key(TEXT, "what it carries, in English", default="")
+    length: int | None = key(INTEGER, "bytes")
+    type: str = key(one_of("Cyclic", "IfActive", "Event"), "how it is sent")
+    period: int | None = key(INTEGER, "ms; 0 where it is sent on an event only")
+    byte_order: str = key(one_of("Intel", "Motorola"), "where it differs from the document's")
+    prefixes: tuple[str, ...] = key(
+        LIST_OF_TEXT, "what field names in generated code leave off", default=()
+    )
+    signals: tuple[FieldRow, ...] = key(list_of(nested(FieldRow)), "its fields", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Messages(Record):
+    """messages.yaml: the annex that lays out the frames."""
+
+    MAIN: ClassVar[str] = "messages"
+
+    annex: str = key(TEXT, "number of the annex", required=True)
+    byte_order: str = key(one_of("Intel", "Motorola"), "byte order and bit count", required=True)
+    messages: tuple[MessageRow, ...] = key(list_of(nested(MessageRow)), "in order", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SignalRow(Record):
+    """A row of a signal table: what a signal means."""
+
+    IDENTITY: ClassVar[str] = "no"
+
+    no: int = key(INTEGER, "printed row number", required=True)
+    name: str = key(NAME, "signal name", default="")
+    title: str = key(TEXT, "printed title", default="")
+    english: str = key(TEXT, "short English title", default="")
+    length: int | None = key(INTEGER, "bits")
+    codes: Mapping[int, str] | SameCodes = key(CODES, "printed codes: labels", default={})
+    english_codes: Mapping[int, str] = key(_CODES, "English for labels that need it", default={})
+    factor: Decimal | None = key(DECIMAL, "physical value of one raw step")
+    offset: Decimal | None = key(DECIMAL, "physical value of raw 0")
+    unit: str | None = key(TEXT, "printed unit")
+    range: tuple[Decimal, Decimal] | None = key(RANGE, "printed physical range")
+    route: tuple[str, tuple[str, ...]] | None = key(ROUTE, "sender>receiver,receiver")
+
+    @property
+    def labels(self) -> Mapping[int, str]:
+        """The codes; a reference to another row is already replaced when a spec is read."""
+        return {} if isinstance(self.codes, SameCodes) else self.codes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SignalTable(Record):
+    """tables/NN-….yaml: one table of the standard."""
+
+    IDENTITY: ClassVar[str] = "stem"
+    MAIN: ClassVar[str] = "rows"
+
+    stem: str = ""
+    number: int = key(INTEGER, "printed table number", required=True)
+    title: str = key(TEXT, "printed caption", default="")
+    english: str = key(TEXT, "short English caption", default="")
+    clause: str = key(TEXT, "number of the clause it stands in", required=True)
+    clause_title: str = key(TEXT, "printed title of the clause", default="")
+    clause_english: str = key(TEXT, "the clause's title in English", default="")
+    rows: tuple[SignalRow, ...] = key(list_of(nested(SignalRow)), "in order", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChecksumRow(Record):
+    """A checksum: which bytes it covers, and how."""
+
+    IDENTITY: ClassVar[str] = "signal"
+
+    signal: str = key(NAME, "the signal that carries it", required=True)
+    algorithm: str = key(NAME, "xor, or a name of its own where the standard leaves it open")
+    bytes: tuple[Decimal, Decimal] | None = key(RANGE, "first~last byte covered")
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CounterRow(Record):
+    """An alive counter: it runs 0 to modulus - 1."""
+
+    IDENTITY: ClassVar[str] = "signal"
+
+    signal: str = key(NAME, "the signal that carries it", required=True)
+    modulus: int | None = key(INTEGER, "number of values it runs through")
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TransferRow(Record):
+    """A value too long for one frame, and how it is split."""
+
+    name: str = key(NAME, "its name", required=True)
+    english: str = key(TEXT, "what it carries", default="")
+    messages: tuple[str, ...] = key(list_of(NAME), "messages, in order", required=True)
+    items: tuple[str, ...] = key(list_of(NAME), "item signals, in order", required=True)
+    count: int | None = key(INTEGER, "items in all, where fixed")
+    count_signal: str = key(NAME, "signal that tells how many items", default="")
+    frame_number: str = key(NAME, "signal that numbers the frames from 1", default="")
+    group: str = key(NAME, "signal that tells which group the frame is of", default="")
+    length_signal: str = key(NAME, "signal that tells how many items are valid", default="")
+    groups_signal: str = key(NAME, "signal that tells how many groups", default="")
+    numbering: str = key(
+        one_of("within_group", "through"), "what the frame number counts", default="through"
+    )
+    fill: int | None = key(INTEGER, "raw value of unused items")
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RequestRow(Record):
+    """A signal that asks for messages."""
+
+    IDENTITY: ClassVar[str] = "signal"
+
+    signal: str = key(NAME, "the signal that asks", required=True)
+    code: int = key(INTEGER, "the code that asks", required=True)
+    withdraw: int | None = key(INTEGER, "the code that no longer asks")
+    answers: tuple[str, ...] = key(list_of(NAME), "the messages asked for", required=True)
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimingRow(Record):
+    """When messages are sent."""
+
+    name: str = key(NAME, "a name for the group", required=True)
+    condition: str = key(TEXT, "while or when they are sent, in English", required=True)
+    messages: tuple[str, ...] = key(list_of(NAME), "the messages", required=True)
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Padding(Record):
+    """What is sent in bits that carry no signal."""
+
+    reserved: int | None = key(INTEGER, "bit value of printed reserved fields")
+    unassigned: int | None = key(INTEGER, "bit value of bits that no field names")
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Behaviour(Record):
+    """behaviour.yaml: what happens on the bus beyond the layout."""
+
+    checksums: tuple[ChecksumRow, ...] = key(list_of(nested(ChecksumRow)), "checksums", default=())
+    counters: tuple[CounterRow, ...] = key(list_of(nested(CounterRow)), "counters", default=())
+    transfers: tuple[TransferRow, ...] = key(list_of(nested(TransferRow)), "transfers", default=())
+    requests: tuple[RequestRow, ...] = key(list_of(nested(RequestRow)), "requests", default=())
+    timing: tuple[TimingRow, ...] = key(list_of(nested(TimingRow)), "conditions", default=())
+    padding: Padding | None = key(nested(Padding), "bits without a signal")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChangeRow(Record):
+    """One step of an erratum; exactly one of set, add, relabel, keep."""
+
+    at: tuple[str, ...] = key(LIST_OF_TEXT, "paths of what it changes", required=True)
+    set: Any = key(raw(), "keys with their new values")
+    add: Any = key(raw(), "an entry to append to the list at the path")
+    relabel: Mapping[str, str] = key(map_of(TEXT, TEXT), "label as printed: as read", default={})
+    keep: tuple[str, ...] = key(list_of(NAME), "keys whose print stands", default=())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ErratumRow(Record):
+    """A reading that differs from print, fills a gap, or settles a doubt."""
+
+    IDENTITY: ClassVar[str] = "id"
+
+    id: str = key(NAME, "its number, never reused", required=True)
+    kind: str = key(
+        one_of("scan", "typo", "conflict", "gap", "choice"), "what sort of fault", required=True
+    )
+    place: str = key(TEXT, "where in the document", required=True)
+    printed: str = key(TEXT, "what stands there", required=True)
+    reading: str = key(TEXT, "what is read instead", required=True)
+    because: str = key(TEXT, "why", required=True)
+    change: tuple[ChangeRow, ...] = key(list_of(nested(ChangeRow)), "the change", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Errata(Record):
+    """errata.yaml: the numbered corrections."""
+
+    MAIN: ClassVar[str] = "errata"
+
+    errata: tuple[ErratumRow, ...] = key(list_of(nested(ErratumRow)), "in order", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spec:
+    """A whole spec folder as rows."""
+
+    standard: Standard
+    messages: Messages
+    tables: tuple[SignalTable, ...]
+    behaviour: Behaviour
+    errata: tuple[ErratumRow, ...]
+
+    def rows(self) -> Iterator[tuple[SignalTable, SignalRow]]:
+        """Every signal row with its table, reserved fields left out, in printed order."""
+        for table in self.tables:
+            for row in table.rows:
+                if row.name not in self.standard.reserved:
+                    yield table, row
+
+    def fields(self) -> Iterator[tuple[MessageRow, FieldRow]]:
+        """Every signal of the annex with its message, reserved fields left out."""
+        for message in self.messages.messages:
+            for signal in message.signals:
+                if signal.name not in self.standard.reserved:
+                    yield message, signal
+
+
+DOCUMENTS: Mapping[str, type[Record]] = {
+    "standard": Standard,
+    "messages": Messages,
+    "table": SignalTable,
+    "behaviour": Behaviour,
+    "errata": Errata,
+}
+
+
+def read_spec(folder: Path, shown_as: str) -> Spec:
+    """Read a spec folder as printed; raises `SpecError` with the faults of all its files.
+
+    ``shown_as`` is the folder's path as locations shall name it. behaviour.yaml and errata.yaml
+    may be absent, the rest must be there.
+    """
+    reader = _FolderReader(folder, shown_as)
+    standard = reader.read(Standard, "standard.yaml")
+    messages = reader.read(Messages, "messages.yaml")
+    behaviour = reader.read_if_there(Behaviour, "behaviour.yaml")
+    errata = reader.read_if_there(Errata, "errata.yaml")
+    tables = [
+        dataclasses.replace(table, stem=path.stem)
+        for path in sorted((folder / "tables").glob("*.yaml"))
+        if (table := reader.read(SignalTable, f"tables/{path.name}")) is not None
+    ]
+    tables = [_without_references(table, reader.faults) for table in tables]
+    if reader.faults or standard is None or messages is None:
+        raise SpecError(reader.faults)
+    return Spec(
+        standard=standard,
+        messages=messages,
+        tables=tuple(tables),
+        behaviour=behaviour or Behaviour(where=Location(f"{shown_as}/behaviour.yaml")),
+        errata=errata.errata if errata else (),
+    )
+
+
+class _FolderReader:
+    """Reads the files of one folder and collects what is wrong in any of them."""
+
+    def __init__(self, folder: Path, shown_as: str) -> None:
+        self._folder = folder
+        self._shown_as = shown_as
+        self.faults: list[Fault] = []
+
+    def read(self, record: type[RecordT], name: str) -> RecordT | None:
+        try:
+            return record.read(read_yaml(self._folder / name, f"{self._shown_as}/{name}"))
+        except SpecError as error:
+            self.faults.extend(error.faults)
+            return None
+
+    def read_if_there(self, record: type[RecordT], name: str) -> RecordT | None:
+        return self.read(record, name) if (self._folder / name).exists() else None
+
+
+def _without_references(table: SignalTable, faults: list[Fault]) -> SignalTable:
+    """Replace each same_as by the codes of the row it names."""
+    printed = {row.name: row for row in table.rows if not isinstance(row.codes, SameCodes)}
+    rows: list[SignalRow] = []
+    for row in table.rows:
+        if isinstance(row.codes, SameCodes):
+            if row.codes.row in printed:
+                same = printed[row.codes.row]
+                row = dataclasses.replace(
+                    row, codes=same.labels, english_codes=same.english_codes
+                )
+            else:
+                text = f"same_as: no row {row.codes.row!r} with codes in this table"
+                faults.append(Fault(row.where_is("codes"), text))
+        rows.append(row)
+    return dataclasses.replace(table, rows=tuple(rows))

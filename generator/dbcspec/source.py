@@ -1,0 +1,136 @@
+"""YAML text to located nodes: every scalar stays text and knows its file, line and column.
+
+``yaml.safe_load`` would turn the labels OFF and NO into False, drop repeated keys without a
+word and forget where things stood, so only PyYAML's composer is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+from dbcspec.errors import Fault, Location, SpecError
+
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A leaf: its text as written, never converted."""
+
+    where: Location
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A sequence of nodes."""
+
+    where: Location
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A mapping; keys are scalars, unique, in the order of the file."""
+
+    where: Location
+    entries: tuple[tuple[Scalar, Node], ...]
+
+
+Node = Scalar | Items | Table
+
+
+def read_yaml(path: Path, shown_as: str) -> Node:
+    """Read one YAML file into located nodes.
+
+    ``shown_as`` is the path that locations carry. Raises `SpecError` with every fault found,
+    for anything that is not one plain YAML document in UTF-8.
+    """
+    return compose(_decode(path, shown_as), shown_as)
+
+
+def compose(text: str, shown_as: str) -> Node:
+    """Turn YAML text into located nodes; see `read_yaml`."""
+    faults = [
+        Fault(Location(shown_as, number, line.index("\t") + 1), "tab character: use spaces")
+        for number, line in enumerate(text.split("\n"), start=1)
+        if "\t" in line
+    ]
+    if faults:
+        raise SpecError(faults)
+    try:
+        root = yaml.compose(text, Loader=_LOADER)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        where = Location(shown_as, mark.line + 1, mark.column + 1) if mark else Location(shown_as)
+        raise SpecError.at(where, f"not YAML: {error.problem or error.context}") from None
+    except yaml.reader.ReaderError as error:
+        raise SpecError.at(Location(shown_as), f"not YAML: {error.reason}") from None
+    except RecursionError:
+        raise SpecError.at(Location(shown_as), "nested too deeply") from None
+    if root is None:
+        raise SpecError.at(Location(shown_as), "the file is empty")
+    node = _Converter(shown_as, faults).convert(root)
+    if faults:
+        raise SpecError(faults)
+    return node
+
+
+def _decode(path: Path, shown_as: str) -> str:
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise SpecError.at(Location(shown_as), f"cannot be read: {error.strerror}") from None
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = data[: error.start]
+        line_start = before.rfind(b"\n") + 1
+        column = len(before[line_start:].decode("utf-8", "replace")) + 1
+        where = Location(shown_as, before.count(b"\n") + 1, column)
+        raise SpecError.at(where, f"not UTF-8: byte 0x{data[error.start]:02X}") from None
+
+
+class _Converter:
+    """PyYAML's nodes to ours; what the spec does not allow becomes a fault."""
+
+    def __init__(self, shown_as: str, faults: list[Fault]) -> None:
+        self._shown_as = shown_as
+        self._faults = faults
+        self._seen: set[int] = set()
+
+    def convert(self, node: yaml.Node) -> Node:
+        where = self._where(node)
+        # Aliases share one node: refusing the second visit also defuses anchor bombs.
+        if id(node) in self._seen:
+            self._faults.append(Fault(where, "YAML anchors and aliases are not used here"))
+            return Scalar(where, "")
+        self._seen.add(id(node))
+        if not node.tag.startswith("tag:yaml.org,2002:"):
+            self._faults.append(Fault(where, f"YAML tag {node.tag} is not used here"))
+        if isinstance(node, yaml.MappingNode):
+            return Table(where, tuple(self._entries(node)))
+        if isinstance(node, yaml.SequenceNode):
+            return Items(where, tuple(self.convert(child) for child in node.value))
+        return Scalar(where, str(node.value))
+
+    def _entries(self, node: yaml.MappingNode) -> Iterator[tuple[Scalar, Node]]:
+        keys: set[str] = set()
+        for key_node, value_node in node.value:
+            key = self.convert(key_node)
+            value = self.convert(value_node)
+            if not isinstance(key, Scalar):
+                self._faults.append(Fault(key.where, "a key must be plain text"))
+            elif key.text in keys:
+                self._faults.append(Fault(key.where, f"key {key.text!r} stands here twice"))
+            else:
+                keys.add(key.text)
+                yield key, value
+
+    def _where(self, node: yaml.Node) -> Location:
+        mark = node.start_mark
+        return Location(self._shown_as, mark.line + 1, mark.column + 1)

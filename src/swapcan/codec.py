@@ -1,0 +1,102 @@
+"""Typed messages to payloads and back, with cantools packing the bits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import can
+
+from swapcan.database import Entry, database
+from swapcan.errors import ChecksumError, LengthError, UnknownFrameError
+from swapcan.message import Message
+from swapcan.protect import STANDARD_ALGORITHMS, Algorithm, expected_checksum, sealed
+
+
+class Codec:
+    """Encodes and decodes the messages of the protocol.
+
+    Parameters
+    ----------
+    algorithms
+        Checksum algorithms by name, for those that the standard leaves open: a function from the
+        covered bytes to one byte, for example ``{"BMS_CRC": my_crc}``. Without one that checksum
+        is sent as 0 and not verified.
+    """
+
+    def __init__(self, algorithms: Mapping[str, Algorithm] | None = None) -> None:
+        self._algorithms = MappingProxyType({**STANDARD_ALGORITHMS, **(algorithms or {})})
+
+    def encode(self, message: Message, *, counter: int | None = None) -> bytes:
+        """The payload of a message.
+
+        ``counter`` goes into its alive counter. A checksum or counter that the message itself
+        has is sent as it is; where it is None the checksum is computed, the counter is 0.
+        Raises `EncodeError` for a value that cannot be sent.
+        """
+        kind = type(message)
+        raw = message.to_raw()
+        if counter is not None and kind.COUNTER:
+            raw[kind.COUNTER.dbc_name] = counter
+        entry = database().by_type[kind]
+        data = entry.packer.pack(raw)
+        if kind.CHECKSUM and getattr(message, kind.CHECKSUM.field) is None:
+            return sealed(kind, data, self._algorithms)
+        return data
+
+    def decode(self, frame_id: int, data: bytes, *, verify: bool = True) -> Message:
+        """The message in the payload of an extended frame.
+
+        Raises `UnknownFrameError` for an identifier that the protocol has not, `LengthError` for
+        a payload of another length, and `ChecksumError`, unless ``verify`` is False.
+        """
+        entry = database().by_frame_id.get(frame_id)
+        if entry is None:
+            raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
+        return self._decode(entry, data, verify)
+
+    def decode_frame(self, frame: can.Message, *, verify: bool = True) -> Message:
+        """The message in a frame of python-can; raises as `decode`.
+
+        Error frames, remote frames and frames with an 11-bit identifier are unknown frames,
+        whatever their number.
+        """
+        if reason := _not_a_data_frame(frame):
+            raise UnknownFrameError(frame.arbitration_id, reason)
+        return self.decode(frame.arbitration_id, bytes(frame.data), verify=verify)
+
+    def _decode(self, entry: Entry, data: bytes, verify: bool) -> Message:  # noqa: FBT001
+        kind = entry.type
+        if len(data) != kind.LENGTH:
+            raise LengthError(kind.FRAME_ID, data, kind.NAME, kind.LENGTH)
+        if verify and kind.CHECKSUM:
+            expected = expected_checksum(kind, data, self._algorithms)
+            received = data[kind.CHECKSUM.byte]
+            if expected is not None and received != expected:
+                raise ChecksumError(
+                    kind.FRAME_ID, data, kind.NAME, received=received, expected=expected
+                )
+        return entry.decode(entry.packer.unpack(data))
+
+
+def _not_a_data_frame(frame: can.Message) -> str | None:
+    if frame.is_error_frame:
+        return "is an error frame"
+    if frame.is_remote_frame:
+        return "is a remote frame, it carries no data"
+    if not frame.is_extended_id:
+        return "has an 11-bit identifier, the protocol has 29-bit ones"
+    return None
+
+
+_DEFAULT = Codec()
+
+
+def encode(message: Message, *, counter: int | None = None) -> bytes:
+    """As `Codec.encode`, with the algorithms that the standard states."""
+    return _DEFAULT.encode(message, counter=counter)
+
+
+def decode(frame_id: int, data: bytes, *, verify: bool = True) -> Message:
+    """As `Codec.decode`, with the algorithms that the standard states."""
+    return _DEFAULT.decode(frame_id, data, verify=verify)

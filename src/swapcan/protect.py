@@ -1,0 +1,89 @@
+"""Checksums and alive counters: filled in on sending, checked on receipt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import xor
+from types import MappingProxyType
+
+from swapcan.message import Message
+
+Algorithm = Callable[[bytes], int]
+"""Bytes to a checksum of one byte."""
+
+
+def xor8(data: bytes) -> int:
+    """The XOR of all bytes, as tables 1, 14 and 16 have it."""
+    return reduce(xor, data, 0)
+
+
+STANDARD_ALGORITHMS: Mapping[str, Algorithm] = MappingProxyType({"xor": xor8})
+"""What the standard states; others, such as BMS_CRC, are the user's to add."""
+
+
+def expected_checksum(
+    message: type[Message], data: bytes, algorithms: Mapping[str, Algorithm]
+) -> int | None:
+    """The checksum that the payload must carry.
+
+    None where the message has no checksum or no algorithm of that name is known.
+    """
+    checksum = message.CHECKSUM
+    if checksum is None or checksum.algorithm not in algorithms:
+        return None
+    covered = data[checksum.first_byte : checksum.last_byte + 1]
+    return algorithms[checksum.algorithm](covered)
+
+
+def sealed(message: type[Message], data: bytes, algorithms: Mapping[str, Algorithm]) -> bytes:
+    """The payload with its checksum filled in, or as it is where there is none to fill in."""
+    value = expected_checksum(message, data, algorithms)
+    if value is None or message.CHECKSUM is None:
+        return data
+    byte = message.CHECKSUM.byte
+    return data[:byte] + bytes((value,)) + data[byte + 1 :]
+
+
+class SendCounters:
+    """The alive counters of one sender, one per message, each with its own modulus."""
+
+    def __init__(self) -> None:
+        self._next: dict[type[Message], int] = {}
+
+    def take(self, message: type[Message]) -> int | None:
+        """The value for the next transmission, None where the message has no counter."""
+        if message.COUNTER is None:
+            return None
+        value = self._next.get(message, 0)
+        self._next[message] = (value + 1) % message.COUNTER.modulus
+        return value
+
+
+class ReceiveCounters:
+    """What the alive counters of the other nodes were last, and what they should be next."""
+
+    def __init__(self) -> None:
+        self._last: dict[type[Message], int] = {}
+
+    def problem(self, message: Message) -> str | None:
+        """What is wrong with the counter of a message just received, or None.
+
+        The first message of a kind sets the counter; so does one with a wrong counter, so that a
+        single lost frame is reported once.
+        """
+        kind = type(message)
+        if kind.COUNTER is None:
+            return None
+        value = getattr(message, kind.COUNTER.field)
+        modulus = kind.COUNTER.modulus
+        if not isinstance(value, int) or value >= modulus:
+            self._last.pop(kind, None)
+            return f"counter is {value}, it runs 0 to {modulus - 1}"
+        last = self._last.get(kind)
+        self._last[kind] = value
+        if last is None or value == (last + 1) % modulus:
+            return None
+        if value == last:
+            return f"counter stays at {value}"
+        return f"counter goes from {last} to {value}, expected {(last + 1) % modulus}"
