@@ -1,0 +1,117 @@
+"""Which files are generated, with which bytes; the only place that writes them."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from dbcspec.config import Config
+from dbcspec.emit.dbc import emit_dbc
+from dbcspec.emit.json_schema import emit_json_schemas
+from dbcspec.emit.stubs import emit_stubs
+from dbcspec.errors import ReadError
+from dbcspec.model import Protocol
+from dbcspec.rows import DOCUMENTS
+
+_DIFF_LINES = 8
+_DIGEST = re.compile(rb"\b[0-9a-f]{16}\b")
+
+
+@dataclass(frozen=True, slots=True)
+class Stale:
+    """A file on disk that is not what the spec makes: why, and a short diff."""
+
+    path: str
+    why: str
+    diff: tuple[str, ...] = ()
+
+
+def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
+    """Every generated file: path below the project's root, with forward slashes, to bytes."""
+    main = emit_dbc(protocol).encode("ascii")
+    chinese = emit_dbc(protocol, english=False)
+    made = {
+        f"{config.dbc}/{config.name}.dbc": main,
+        f"{config.dbc}/{config.name}.zh.dbc": chinese.encode("gb2312"),
+        f"{config.dbc}/{config.name}.zh-utf8.dbc": chinese.encode("utf-8"),
+    }
+    for bus in protocol.buses:
+        made[f"{config.dbc}/{config.name}-{bus.name}.dbc"] = emit_dbc(protocol, bus=bus).encode(
+            "ascii"
+        )
+    if config.stubs:
+        for name, text in emit_stubs(protocol, config.runtime).items():
+            made[f"{config.stubs}/{name}"] = text.encode("utf-8")
+        made[f"{config.stubs}/{config.name}.dbc"] = main
+    for name, text in emit_json_schemas(DOCUMENTS).items():
+        made[f"{config.spec}/schema/{name}"] = text.encode("utf-8")
+    return made
+
+
+def write(root: Path, files: Mapping[str, bytes]) -> list[str]:
+    """Write what differs and return its paths; raises `ReadError` where a file cannot be written.
+
+    All files are first written beside their targets and then moved into place, so that a
+    failure leaves the last generation whole.
+    """
+    changed = [name for name, data in files.items() if _bytes(root / name) != data]
+    waiting: list[tuple[Path, Path]] = []
+    try:
+        for name in changed:
+            target = root / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            beside = target.with_name(f".{target.name}.new")
+            waiting.append((beside, target))
+            beside.write_bytes(files[name])
+        for beside, target in waiting:
+            os.replace(beside, target)  # noqa: PTH105 - replaces in one step on every system
+    except OSError as error:
+        raise ReadError(f"{error.filename}: cannot be written: {error.strerror}") from None
+    finally:
+        for beside, _ in waiting:
+            beside.unlink(missing_ok=True)
+    return changed
+
+
+def verify(root: Path, files: Mapping[str, bytes], protocol: Protocol, config: Config) -> list[Stale]:
+    """What on disk is missing, stale, edited by hand, or no longer generated."""
+    found: list[Stale] = []
+    for name, data in files.items():
+        present = _bytes(root / name)
+        if present is None:
+            found.append(Stale(name, "missing"))
+        elif present != data:
+            digests = _DIGEST.findall(present)
+            same_spec = protocol.digest.encode() in digests
+            why = "edited by hand" if same_spec else "stale"
+            found.append(Stale(name, why, _short_diff(present, data)))
+    present_dbcs = (root / config.dbc).glob(f"{config.name}*.dbc")
+    surplus = {f"{config.dbc}/{path.name}" for path in present_dbcs} - set(files)
+    return found + [Stale(name, "no longer generated: delete it") for name in sorted(surplus)]
+
+
+def _bytes(path: Path) -> bytes | None:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise ReadError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _short_diff(present: bytes, wanted: bytes) -> tuple[str, ...]:
+    """The first differing lines, on disk first."""
+    old, new = (data.decode("utf-8", "replace").splitlines() for data in (present, wanted))
+    lines = [
+        line
+        for line in difflib.unified_diff(old, new, lineterm="", n=0)
+        if not line.startswith(("---", "+++", "@@"))
+    ]
+    if not lines:
+        return ("line ends or the end of the file differ",)
+    more = len(lines) - _DIFF_LINES
+    return (*lines[:_DIFF_LINES], *([f"… {more} more lines"] if more > 0 else []))

@@ -1,0 +1,38 @@
+"""A project's spec from its folder to the model, with what the linter says of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dbcspec.config import Config
+from dbcspec.errata import apply_errata
+from dbcspec.errors import Fault
+from dbcspec.lint.rule import Finding, Subject
+from dbcspec.lint.run import lint
+from dbcspec.model import Protocol
+from dbcspec.resolve import resolve
+from dbcspec.rows import Spec, read_spec
+
+
+@dataclass(frozen=True, slots=True)
+class Project:
+    """A spec that could be read: its configuration, corrected rows and model."""
+
+    config: Config
+    spec: Spec
+    protocol: Protocol
+    errata_faults: tuple[Fault, ...]
+
+    def findings(self) -> list[Finding]:
+        """What the linter finds and no waiver accepts."""
+        subject = Subject(
+            protocol=self.protocol, spec=self.spec, errata_faults=self.errata_faults
+        )
+        return lint(subject, self.config.waivers)
+
+
+def load(config: Config) -> Project:
+    """Read, correct and resolve; raises `SpecError` with every fault that prevents it."""
+    printed = read_spec(config.root / config.spec, config.spec)
+    spec, errata_faults = apply_errata(printed)
+    return Project(config, spec, resolve(spec, config.name), errata_faults)

@@ -1,0 +1,131 @@
+"""A message for the terminal: bit matrix, signals, codes, errata, and where each stands."""
+
+from __future__ import annotations
+
+import difflib
+import string
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+
+from dbcspec.emit.dbc import number
+from dbcspec.errors import ReadError
+from dbcspec.layout import bits
+from dbcspec.model import Message, Protocol, Signal, ValueTable
+
+_LETTERS = string.ascii_lowercase + string.ascii_uppercase
+_WIDTH = 100
+
+
+def find_message(protocol: Protocol, name: str) -> Message:
+    """The message of that name, or with a signal of that name; raises `ReadError`."""
+    for message in protocol.messages:
+        if name == message.name or any(name == signal.name for signal in message.signals):
+            return message
+    names = [message.name for message in protocol.messages]
+    names += [signal.name for _, signal in protocol.signals()]
+    close = difflib.get_close_matches(name, names, n=3)
+    hint = f"; did you mean {', '.join(close)}?" if close else ""
+    raise ReadError(f"there is no message or signal {name!r}{hint}")
+
+
+def show(protocol: Protocol, message: Message) -> str:
+    """The message as lines of text."""
+    blocks = [
+        list(_head(message)),
+        list(_matrix(message)),
+        list(_signals(message)),
+        list(_codes(message)),
+        list(_errata(protocol, message)),
+    ]
+    return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
+
+
+def _head(message: Message) -> Iterator[str]:
+    route = f"{message.sender} > {', '.join(message.receivers)}"
+    when = f"every {message.period} ms" if message.period else "on event"
+    yield f"{message.name}  0x{message.frame_id:08X}  {message.length} bytes  {route}  {when}"
+    yield from filter(None, (message.english, message.title))
+    if message.condition:
+        yield f"Sent {message.condition}."
+    if message.checksum:
+        check = message.checksum
+        covered = f"bytes {check.first_byte} to {check.last_byte}"
+        yield f"Checksum {check.signal}: {check.algorithm} of {covered}."
+    if message.counter:
+        yield f"Counter {message.counter.signal}: 0 to {message.counter.modulus - 1}."
+    yield message.reference
+
+
+def _matrix(message: Message) -> Iterator[str]:
+    owner = {
+        bit: letter
+        for signal, letter in zip(message.signals, _letters(message), strict=True)
+        for bit in bits(signal)
+    }
+    yield "bit      7  6  5  4  3  2  1  0"
+    for byte in range(message.length):
+        cells = (owner.get(8 * byte + bit, ".").rjust(2) for bit in range(7, -1, -1))
+        yield f"byte {byte:<2} {' '.join(cells)}"
+
+
+def _letters(message: Message) -> list[str]:
+    """One or two letters a signal, enough for any frame."""
+    pairs = [first + second for first in _LETTERS for second in _LETTERS]
+    return [*_LETTERS, *pairs][: len(message.signals)]
+
+
+def _signals(message: Message) -> Iterator[str]:
+    rows = [("", "signal", "start", "bits", "order", "factor", "offset", "range", "unit", "where")]
+    rows += [
+        (letter, *_cells(signal))
+        for signal, letter in zip(message.signals, _letters(message), strict=True)
+    ]
+    yield from _aligned(rows)
+
+
+def _cells(signal: Signal) -> tuple[str, ...]:
+    return (
+        signal.name,
+        str(signal.start),
+        str(signal.length),
+        signal.byte_order.value,
+        number(signal.factor),
+        number(signal.offset),
+        f"{number(signal.minimum)}~{number(signal.maximum)}",
+        signal.unit,
+        " ".join((signal.reference, *signal.errata)),
+    )
+
+
+def _aligned(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()
+
+
+def _codes(message: Message) -> Iterator[str]:
+    users: dict[ValueTable, list[str]] = {}
+    for signal in message.signals:
+        if signal.value_table:
+            users.setdefault(signal.value_table, []).append(signal.name)
+    for table, names in users.items():
+        labels = ", ".join(
+            f"{code.value} {code.english}" + (f" ({code.label})" if code.label != code.english else "")
+            for code in table.codes
+        )
+        yield from _indented(f"{table.name}: {labels}")
+        yield from _indented(f"    of {', '.join(names)}")
+
+
+def _errata(protocol: Protocol, message: Message) -> Iterator[str]:
+    numbers = {*message.errata, *(mark for signal in message.signals for mark in signal.errata)}
+    for erratum in protocol.errata:
+        if erratum.id in numbers:
+            yield from _indented(f"{erratum.id} ({erratum.kind}) {erratum.place}")
+            yield from _indented(f"    printed: {erratum.printed}")
+            yield from _indented(f"    read:    {erratum.reading}")
+
+
+def _indented(text: str) -> Iterable[str]:
+    return textwrap.wrap(text, _WIDTH, subsequent_indent="        ", break_long_words=False)
