@@ -77,7 +77,9 @@ def write(root: Path, files: Mapping[str, bytes]) -> list[str]:
     return changed
 
 
-def verify(root: Path, files: Mapping[str, bytes], protocol: Protocol, config: Config) -> list[Stale]:
+def verify(
+    root: Path, files: Mapping[str, bytes], protocol: Protocol, config: Config
+) -> list[Stale]:
     """What on disk is missing, stale, edited by hand, or no longer generated."""
     found: list[Stale] = []
     for name, data in files.items():

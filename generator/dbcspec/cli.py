@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import json
 import os
 import sys
@@ -29,14 +30,10 @@ exit status: 0 all is well, 1 findings or stale files, 2 the command could not d
 def run(arguments: Sequence[str]) -> int:
     """Run the command line with its arguments and return the exit status."""
     for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a code page without Chinese shows ? instead
-    options = _parser().parse_args(arguments)
-    if options.print_completion:
-        return _print_completion(options.print_completion)
-    if not hasattr(options, "run"):
-        _parser().print_help(sys.stderr)
-        return 2
+    parser = _parser()
+    options = parser.parse_args(arguments)
     try:
         command: Callable[[argparse.Namespace], int] = options.run
         return command(options)
@@ -70,6 +67,7 @@ def _parser() -> argparse.ArgumentParser:
         choices=("bash", "zsh", "tcsh"),
         help="print a completion script for a shell",
     )
+    parser.set_defaults(run=lambda options: _no_command(parser, options.print_completion))
     commands = parser.add_subparsers(title="commands", metavar="")
     for name, function, text in (
         ("generate", _generate, "write all generated files"),
@@ -189,10 +187,14 @@ def _show(options: argparse.Namespace) -> int:
     return 0
 
 
-def _print_completion(shell: str) -> int:
+def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
+    """Print a completion script, or help where none is asked for either."""
+    if shell is None:
+        parser.print_help(sys.stderr)
+        return 2
     try:
         import shtab
     except ModuleNotFoundError:
         raise ReadError("completion needs shtab: pip install 'swapcan[completion]'") from None
-    print(shtab.complete(_parser(), shell))
+    print(shtab.complete(parser, shell))
     return 0

@@ -1,4 +1,4 @@
-"""Rows as printed to rows as read: applies each erratum's change, and refuses one that does nothing.
+"""Rows as printed to rows as read: applies each erratum, and refuses one that does nothing.
 
 Paths: ``tables/07-temperature-summary/4`` (a row by its number), ``messages/B2V_ST4/B2V_ST4_…``
 (a field of the annex), ``standard/nodes/BMU``, ``behaviour/checksums/BMS_CRC``, ``tables``.
@@ -37,7 +37,7 @@ def apply_errata(spec: Spec) -> tuple[Spec, tuple[Fault, ...]]:
         for change in erratum.change:
             for path in change.at:
                 try:
-                    spec = _edit_at(spec, path.split("/"), _edit_for(erratum, change, path))
+                    spec = _edit_at(spec, path.split("/"), _edit_for(erratum, change))
                 except _RefusedError as refused:
                     text = f"erratum {erratum.id}, {path}: {refused}"
                     faults.append(Fault(change.where_is("at"), text))
@@ -75,9 +75,11 @@ def _edit_at(value: Any, path: list[str], edit: Edit) -> Any:
     raise _RefusedError(f"nothing below it is named {name!r}")
 
 
-def _edit_for(erratum: ErratumRow, change: ChangeRow, path: str) -> Edit:
+def _edit_for(erratum: ErratumRow, change: ChangeRow) -> Edit:
     given = [
-        name for name in ("set", "add", "relabel", "keep") if getattr(change, name) not in (None, {}, ())
+        name
+        for name in ("set", "add", "relabel", "keep")
+        if getattr(change, name) not in (None, {}, ())
     ]
     if len(given) != 1:
         raise _RefusedError("give exactly one of set, add, relabel, keep")

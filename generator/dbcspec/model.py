@@ -8,6 +8,7 @@ here. Start bits are counted as DBC files count them: bit 0 is the least signifi
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, is_dataclass
 from decimal import Decimal
@@ -34,6 +35,20 @@ class SendType(Enum):
     EVENT = 8
 
 
+class Aspect(Enum):
+    """What a protocol says beyond its bits; a DBC file cannot carry all of it."""
+
+    PERIODS = "periods and send types"
+    START_VALUES = "start values"
+    COMMENTS = "titles and comments"
+    REFERENCES = "places in the standard and errata"
+    ADDRESSES = "node addresses"
+    VALUE_TABLE_NAMES = "names of value tables"
+    PYTHON_NAMES = "field names of generated code"
+    PROTECTION = "checksums and counters"
+    TRANSFERS = "transfers and requests"
+
+
 @dataclass(frozen=True, slots=True)
 class Code:
     """One raw value with a meaning: the label as printed and in English."""
@@ -57,7 +72,11 @@ class ValueTable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Signal:
-    """A value in a message. Physical value = raw value x factor + offset."""
+    """A value in a message. Physical value = raw value x factor + offset.
+
+    A multiplexed signal is there only while the signal ``multiplexer`` of its message, which has
+    ``is_selector``, holds one of the raw values ``selectors``.
+    """
 
     name: str
     title: str = ""
@@ -66,6 +85,7 @@ class Signal:
     length: int
     byte_order: ByteOrder = ByteOrder.INTEL
     signed: bool = False
+    is_float: bool = False
     factor: Decimal = Decimal(1)
     offset: Decimal = Decimal(0)
     minimum: Decimal
@@ -76,6 +96,9 @@ class Signal:
     abnormal_code: int | None = None
     start_value: int = 0
     receivers: tuple[str, ...] = ()
+    is_selector: bool = False
+    multiplexer: str = ""
+    selectors: tuple[int, ...] = ()
     python_name: str = ""
     reference: str = ""
     errata: tuple[str, ...] = ()
@@ -94,7 +117,7 @@ class Signal:
         low, high = sorted(
             ((self.minimum - self.offset) / self.factor, (self.maximum - self.offset) / self.factor)
         )
-        return -int(-low // 1), int(high // 1)
+        return math.ceil(low), math.floor(high)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,6 +158,15 @@ class Message:
     reference: str = ""
     errata: tuple[str, ...] = ()
     where: Location = field(default=NOWHERE, compare=False)
+
+    def comment(self, *, english: bool = True) -> str:
+        """What it carries and when it is sent, as comments have it."""
+        if not english:
+            return self.title
+        if not self.condition:
+            return self.english
+        when = f", every {self.period} ms" if self.period else ""
+        return f"{self.english}. Sent {self.condition}{when}."
 
     @property
     def receivers(self) -> tuple[str, ...]:
@@ -208,7 +240,11 @@ class Request:
 
 @dataclass(frozen=True, kw_only=True)
 class Protocol:
-    """A whole protocol, every correction applied."""
+    """A whole protocol, every correction applied.
+
+    ``carries`` tells what its source could say at all, so that a comparison does not take silence
+    for a difference.
+    """
 
     name: str
     number: str = ""
@@ -223,6 +259,7 @@ class Protocol:
     transfers: tuple[Transfer, ...] = ()
     requests: tuple[Request, ...] = ()
     errata: tuple[Erratum, ...] = ()
+    carries: frozenset[Aspect] = field(default=frozenset(Aspect), compare=False)
 
     def signals(self) -> Iterator[tuple[Message, Signal]]:
         """Every signal with its message, in order."""

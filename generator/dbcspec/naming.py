@@ -62,8 +62,10 @@ def member_names(labels: Sequence[tuple[int, str]]) -> dict[int, str]:
     for value, label in labels:
         name = re.sub(r"[^A-Za-z0-9]+", "_", label).strip("_").upper() or "CODE"
         members[value] = f"_{name}" if name[0].isdigit() else name
-    counts = list(members.values())
-    return {
-        value: f"{name}_{value}" if counts.count(name) > 1 else name
-        for value, name in members.items()
-    }
+    names = list(members.values())
+    for value, name in members.items():
+        if names.count(name) > 1:
+            numbered = f"{name}_{value}"
+            # No label makes a name that ends in an underscore.
+            members[value] = f"{numbered}_" if numbered in names else numbered
+    return members

@@ -25,9 +25,7 @@ class Project:
 
     def findings(self) -> list[Finding]:
         """What the linter finds and no waiver accepts."""
-        subject = Subject(
-            protocol=self.protocol, spec=self.spec, errata_faults=self.errata_faults
-        )
+        subject = Subject(protocol=self.protocol, spec=self.spec, errata_faults=self.errata_faults)
         return lint(subject, self.config.waivers)
 
 

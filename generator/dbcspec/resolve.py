@@ -41,9 +41,7 @@ class _Resolver:
         self._spec = spec
         self.faults: list[Fault] = []
         self._aliases = {
-            alias: node.name
-            for node in spec.standard.nodes
-            for alias in (node.name, *node.aliases)
+            alias: node.name for node in spec.standard.nodes for alias in (node.name, *node.aliases)
         }
         self._rows: dict[str, list[tuple[SignalTable, SignalRow]]] = {}
         for table, row in spec.rows():
@@ -120,14 +118,12 @@ class _Resolver:
         return value
 
     def _message(self, row: MessageRow) -> model.Message:
-        fields = [
-            field for field in row.signals if field.name not in self._spec.standard.reserved
-        ]
+        fields = [field for field in row.signals if field.name not in self._spec.standard.reserved]
         prefixes = (*row.prefixes, f"{row.name}_", shared_prefix([field.name for field in fields]))
         counters = {counter.signal for counter in self._spec.behaviour.counters}
         checksums = {checksum.signal for checksum in self._spec.behaviour.checksums}
         signals = tuple(
-            self._signal(row, field, prefixes, field.name in counters | checksums)
+            self._signal(row, field, prefixes, filled_in=field.name in counters | checksums)
             for field in fields
             if field.name in self._rows
         )
@@ -158,7 +154,7 @@ class _Resolver:
         return self._aliases.get(printed, printed)
 
     def _signal(
-        self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], filled_in: bool
+        self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], *, filled_in: bool
     ) -> model.Signal:
         rows = self._rows[field.name]
         row = rows[0][1]

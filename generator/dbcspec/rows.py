@@ -23,8 +23,8 @@ from dbcspec.schema import (
     Kind,
     Record,
     RecordT,
-    expect_text,
     expect_table,
+    expect_text,
     key,
     list_of,
     map_of,
@@ -400,14 +400,12 @@ def _without_references(table: SignalTable, faults: list[Fault]) -> SignalTable:
     printed = {row.name: row for row in table.rows if not isinstance(row.codes, SameCodes)}
     rows: list[SignalRow] = []
     for row in table.rows:
-        if isinstance(row.codes, SameCodes):
-            if row.codes.row in printed:
-                same = printed[row.codes.row]
-                row = dataclasses.replace(
-                    row, codes=same.labels, english_codes=same.english_codes
-                )
-            else:
-                text = f"same_as: no row {row.codes.row!r} with codes in this table"
-                faults.append(Fault(row.where_is("codes"), text))
-        rows.append(row)
+        if not isinstance(row.codes, SameCodes):
+            rows.append(row)
+        elif same := printed.get(row.codes.row):
+            codes = {"codes": same.labels, "english_codes": same.english_codes}
+            rows.append(dataclasses.replace(row, **codes))
+        else:
+            text = f"same_as: no row {row.codes.row!r} with codes in this table"
+            faults.append(Fault(row.where_is("codes"), text))
     return dataclasses.replace(table, rows=tuple(rows))

@@ -8,7 +8,6 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cache
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from dbcspec.errors import Fault, Location, SpecError
@@ -79,7 +78,6 @@ def key(kind: Kind, help: str, *, required: bool = False, default: Any = None) -
     return field(default=default, metadata={_METADATA: spec})
 
 
-@cache
 def keys_of(record: type[Record]) -> dict[str, Key]:
     """The keys of a record class, by name, in order."""
     return {

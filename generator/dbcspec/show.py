@@ -75,7 +75,8 @@ def _letters(message: Message) -> list[str]:
 
 
 def _signals(message: Message) -> Iterator[str]:
-    rows = [("", "signal", "start", "bits", "order", "factor", "offset", "range", "unit", "where")]
+    heading = "signal start bits order factor offset range unit where"
+    rows: list[tuple[str, ...]] = [("", *heading.split())]
     rows += [
         (letter, *_cells(signal))
         for signal, letter in zip(message.signals, _letters(message), strict=True)
@@ -111,7 +112,8 @@ def _codes(message: Message) -> Iterator[str]:
             users.setdefault(signal.value_table, []).append(signal.name)
     for table, names in users.items():
         labels = ", ".join(
-            f"{code.value} {code.english}" + (f" ({code.label})" if code.label != code.english else "")
+            f"{code.value} {code.english}"
+            + (f" ({code.label})" if code.label != code.english else "")
             for code in table.codes
         )
         yield from _indented(f"{table.name}: {labels}")

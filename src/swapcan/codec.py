@@ -27,20 +27,23 @@ class Codec:
     def __init__(self, algorithms: Mapping[str, Algorithm] | None = None) -> None:
         self._algorithms = MappingProxyType({**STANDARD_ALGORITHMS, **(algorithms or {})})
 
-    def encode(self, message: Message, *, counter: int | None = None) -> bytes:
+    def encode(self, message: Message, *, counter: int | None = None, renew: bool = False) -> bytes:
         """The payload of a message.
 
         ``counter`` goes into its alive counter. A checksum or counter that the message itself
         has is sent as it is; where it is None the checksum is computed, the counter is 0.
-        Raises `EncodeError` for a value that cannot be sent.
+        With ``renew`` the checksum is always computed: a message that was received and is sent
+        again has the old one. Raises `EncodeError` for a value that cannot be sent.
         """
         kind = type(message)
         raw = message.to_raw()
         if counter is not None and kind.COUNTER:
             raw[kind.COUNTER.dbc_name] = counter
-        entry = database().by_type[kind]
-        data = entry.packer.pack(raw)
-        if kind.CHECKSUM and getattr(message, kind.CHECKSUM.field) is None:
+        checksum = kind.CHECKSUM and kind.FIELDS[kind.CHECKSUM.field]
+        if checksum and renew:
+            raw[checksum.dbc_name] = 0
+        data = database().by_type[kind].packer.pack(raw)
+        if checksum and (renew or getattr(message, checksum.name) is None):
             return sealed(kind, data, self._algorithms)
         return data
 
@@ -53,7 +56,7 @@ class Codec:
         entry = database().by_frame_id.get(frame_id)
         if entry is None:
             raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
-        return self._decode(entry, data, verify)
+        return self._decode(entry, data, verify=verify)
 
     def decode_frame(self, frame: can.Message, *, verify: bool = True) -> Message:
         """The message in a frame of python-can; raises as `decode`.
@@ -65,7 +68,7 @@ class Codec:
             raise UnknownFrameError(frame.arbitration_id, reason)
         return self.decode(frame.arbitration_id, bytes(frame.data), verify=verify)
 
-    def _decode(self, entry: Entry, data: bytes, verify: bool) -> Message:  # noqa: FBT001
+    def _decode(self, entry: Entry, data: bytes, *, verify: bool) -> Message:
         kind = entry.type
         if len(data) != kind.LENGTH:
             raise LengthError(kind.FRAME_ID, data, kind.NAME, kind.LENGTH)

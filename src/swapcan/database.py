@@ -45,7 +45,7 @@ def dbc_text() -> str:
 def message_type(name: str) -> type[Message]:
     """The message class of that name; raises `UnknownMessageError`."""
     for message in MESSAGES:
-        if message.NAME == name:
+        if name == message.NAME:
             return message
     known = ", ".join(message.NAME for message in MESSAGES)
     raise UnknownMessageError(f"there is no message {name!r}; known: {known}")

@@ -69,6 +69,10 @@ class Field:
         """The value for people, with label or unit."""
         return str(value)
 
+    def _limits(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{self.minimum:.10g} to {self.maximum:.10g}{unit}"
+
     def _refuse(self, message: str, value: object, problem: str) -> EncodeError:
         return EncodeError(message, self.name, value, problem)
 
@@ -79,9 +83,10 @@ class Field:
         raise self._refuse(message, value, f"has no code for {value}")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class PhysicalField(Field):
     """A measured value; it is rounded to the nearest step that the bits can hold."""
+
+    __slots__ = ()
 
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send; raises `EncodeError`."""
@@ -93,7 +98,7 @@ class PhysicalField(Field):
             raise self._refuse(message, value, f"expected a number, not {value!r}") from None
         if not inside:
             raise self._refuse(message, value, self._outside(value))
-        raw = round((value - self.offset) / self.factor)
+        raw: int = round((value - self.offset) / self.factor)
         if raw in self.states:
             problem = f"{value:g} would be sent as raw {raw}, which means {self.states[raw]}"
             raise self._refuse(message, value, problem)
@@ -101,10 +106,9 @@ class PhysicalField(Field):
 
     def _outside(self, value: float) -> str:
         unit = f" {self.unit}" if self.unit else ""
-        limits = f"{self.minimum:.10g} to {self.maximum:.10g}{unit}"
         if not math.isfinite(value):
-            return f"{value} is not a finite number; allowed are {limits}"
-        return f"{value:.10g}{unit} is out of range; allowed are {limits}"
+            return f"{value} is not a finite number; allowed are {self._limits()}"
+        return f"{value:.10g}{unit} is out of range; allowed are {self._limits()}"
 
     def text(self, value: Value) -> str:
         """The value with its unit."""
@@ -113,9 +117,10 @@ class PhysicalField(Field):
         return f"{value:.10g} {self.unit}".rstrip()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class NumberField(Field):
     """A whole number: a count, an index, a code of the manufacturer's."""
+
+    __slots__ = ()
 
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send; raises `EncodeError`."""
@@ -124,37 +129,40 @@ class NumberField(Field):
         if not isinstance(value, int):
             raise self._refuse(message, value, f"expected a whole number, not {value!r}")
         if not self.minimum <= value <= self.maximum:
-            limits = f"{self.minimum:.10g} to {self.maximum:.10g}"
-            raise self._refuse(message, value, f"{value} is out of range; allowed are {limits}")
+            problem = f"{value} is out of range; allowed are {self._limits()}"
+            raise self._refuse(message, value, problem)
         if value in self.states:
             raise self._refuse(message, value, f"{value} means {self.states[value]}")
-        return int(value)
+        return value
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class LabelledField(Field):
     """One of a few codes; a code without a label is a plain int."""
 
+    __slots__ = ()
+
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send; raises `EncodeError`."""
+        if isinstance(value, int) and self.minimum <= value <= self.maximum:
+            return value
         if isinstance(value, str):
             known = ", ".join(map(repr, self.labels.values()))
-            raise self._refuse(message, value, f"unknown label {value!r}; known: {known}")
-        if not isinstance(value, int):
-            raise self._refuse(message, value, f"expected a code, not {value!r}")
-        if not 0 <= value < 1 << self.length:
-            highest = (1 << self.length) - 1
-            raise self._refuse(message, value, f"code {value} does not fit; 0 to {highest} do")
-        return int(value)
+            problem = f"unknown label {value!r}; known: {known}"
+        elif isinstance(value, int):
+            problem = f"code {int(value)} is out of range; allowed are {self._limits()}"
+        else:
+            problem = f"expected a code, not {value!r}"
+        raise self._refuse(message, value, problem)
 
     def text(self, value: Value) -> str:
         """The label of the code, or the code where it has none."""
         return self.labels.get(int(value), str(value)) if isinstance(value, int) else str(value)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class CharacterField(Field):
     """One ASCII character; a code that the standard gives no character is a plain int."""
+
+    __slots__ = ()
 
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send; raises `EncodeError`."""
@@ -170,9 +178,10 @@ class CharacterField(Field):
         return value if isinstance(value, str) else f"0x{value:02X}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class FilledField(NumberField):
     """A checksum or counter: None until it is sent, then filled in."""
+
+    __slots__ = ()
 
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send, 0 where it is to be filled in; raises `EncodeError`."""
@@ -220,7 +229,7 @@ class Message:
     COUNTER: ClassVar[Counter | None] = None
 
     def to_raw(self) -> dict[str, int]:
-        """DBC signal names and raw values; raises `EncodeError` for the first that cannot be sent."""
+        """DBC signal names and raw values; raises `EncodeError` at the first that cannot be."""
         name = self.NAME
         return {
             part.dbc_name: part.to_raw(name, getattr(self, part.name))

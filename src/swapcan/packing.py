@@ -22,13 +22,13 @@ class Packer:
         names = [signal.name for signal in message.signals]
         orders = {signal.byte_order for signal in message.signals}
         self._length = message.length
-        self._big = formats.big_endian if "big_endian" in orders else None
-        self._little = formats.little_endian if "little_endian" in orders else None
+        self._big: Any = formats.big_endian if "big_endian" in orders else None
+        self._little: Any = formats.little_endian if "little_endian" in orders else None
         self._pick: Any = itemgetter(*names) if len(names) > 1 else lambda raw: tuple(raw.values())
 
     def unpack(self, data: bytes) -> Sequence[int]:
         """The raw values in the order of the message's signals; ``data`` has its full length."""
-        raw: dict[str, int] = {}
+        raw: dict[str, Any] = {}
         if self._little:
             raw = self._little.unpack(data[::-1])
         if self._big:
@@ -38,11 +38,11 @@ class Packer:
 
     def pack(self, raw: Mapping[str, int]) -> bytes:
         """The payload; ``raw`` has a value for every signal, bits without a signal are 0."""
-        little: bytes = self._little.pack(raw)[::-1] if self._little else b""
+        little: bytes = self._little.pack(raw)[::-1] if self._little else bytes(self._length)
         if not self._big:
             return little
         big: bytes = self._big.pack(raw)
-        if not little:
+        if not self._little:
             return big
         both = int.from_bytes(little, "big") | int.from_bytes(big, "big")
         return both.to_bytes(self._length, "big")

@@ -51,13 +51,14 @@ class SendCounters:
     def __init__(self) -> None:
         self._next: dict[type[Message], int] = {}
 
-    def take(self, message: type[Message]) -> int | None:
+    def peek(self, message: type[Message]) -> int | None:
         """The value for the next transmission, None where the message has no counter."""
-        if message.COUNTER is None:
-            return None
-        value = self._next.get(message, 0)
-        self._next[message] = (value + 1) % message.COUNTER.modulus
-        return value
+        return None if message.COUNTER is None else self._next.get(message, 0)
+
+    def advance(self, message: type[Message]) -> None:
+        """Go on to the next value: the one that `peek` gave is on the bus."""
+        if message.COUNTER is not None:
+            self._next[message] = (self._next.get(message, 0) + 1) % message.COUNTER.modulus
 
 
 class ReceiveCounters:

@@ -52,15 +52,14 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
         bit_rate=rates.pop() if len(rates) == 1 else None,
         attributes=_attributes(protocol),
         defaults={each.name: each.default for each in _attributes(protocol)},
-        value_tables=[_value_table(table, english) for table in part.value_tables],
+        value_tables=[_value_table(table, english=english) for table in part.value_tables],
         number=number,
         english=english,
         dbc_id=dbc_id,
         signal_line=_signal_line,
-        messages_values=list(_values(part, english)),
+        messages_values=list(_values(part, english=english)),
         frame_format=_FRAME_FORMATS.index(part.frame_format),
         nobody=NOBODY,
-        comment=_comment,
     )
     return text.replace("\n", "\r\n")
 
@@ -88,26 +87,16 @@ def _signal_line(signal: Signal) -> str:
     )
 
 
-def _value_table(table: ValueTable, english: bool) -> tuple[str, str]:
+def _value_table(table: ValueTable, *, english: bool) -> tuple[str, str]:
     return table.name, " ".join(
         f'{value} "{label}"' for value, label in table.labels(english=english).items()
     )
 
 
-def _values(protocol: Protocol, english: bool) -> Iterator[tuple[Message, Signal, str]]:
+def _values(protocol: Protocol, *, english: bool) -> Iterator[tuple[Message, Signal, str]]:
     for message, signal in protocol.signals():
         if signal.value_table:
-            yield message, signal, _value_table(signal.value_table, english)[1]
-
-
-def _comment(message: Message, english: bool) -> str:
-    """What a message carries and when it is sent."""
-    if not english:
-        return message.title
-    when = f", every {message.period} ms" if message.period else ""
-    return f"{message.english}. Sent {message.condition}{when}." if message.condition else (
-        f"{message.english}."
-    )
+            yield message, signal, _value_table(signal.value_table, english=english)[1]
 
 
 def _attributes(protocol: Protocol) -> list[Attribute]:

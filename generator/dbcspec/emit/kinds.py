@@ -26,7 +26,7 @@ def kind_of(message: Message, signal: Signal) -> Kind:
     if signal.name in filled:
         return Kind.FILLED
     meanings = value_codes(signal)
-    if meanings and all(code.english == chr(code.value) for code in meanings):
+    if meanings and all([*map(ord, code.english)] == [code.value] for code in meanings):
         return Kind.CHARACTER
     if meanings and not is_numbering(meanings):
         return Kind.LABELLED
@@ -42,7 +42,7 @@ def value_codes(signal: Signal) -> tuple[Code, ...]:
 
 
 def is_numbering(codes: tuple[Code, ...]) -> bool:
-    """Whether labels only repeat the code behind one word: CSC1, CSC2, …"""
+    """Whether labels only repeat the code behind one word, as CSC1, CSC2 and so on do."""
     words = {code.english.removesuffix(str(code.value)) for code in codes}
     return len(words) == 1 and all(code.english.endswith(str(code.value)) for code in codes)
 

@@ -13,6 +13,7 @@ from dbcspec.model import ByteOrder, Message, Protocol, Signal, ValueTable
 from dbcspec.naming import member_names
 
 _WIDTH = 92
+_LONGEST_LINE = 100
 _TABLE_BITS = 10
 
 
@@ -49,9 +50,7 @@ def emit_stubs(protocol: Protocol, runtime: str) -> dict[str, str]:
         "protocol": protocol,
         "runtime": runtime,
         "stubs": stubs,
-        "enums": [
-            (table, _members(table), _enum_doc(table, users)) for table, users in tables.items()
-        ],
+        "enums": [(table, _members(table), _enum_doc(users)) for table, users in tables.items()],
         "labelled": labelled,
         "code_tables": _code_tables(stubs),
         "imports": sorted(base | {field.kind.value for field in fields}, key=_import_order),
@@ -60,7 +59,8 @@ def emit_stubs(protocol: Protocol, runtime: str) -> dict[str, str]:
         "whole_byte": whole_byte,
         "signal_of": lambda message, name: next(s for s in message.signals if s.name == name),
         "quote": quote,
-        "tuple_of": _tuple_of,
+        "assigned": _assigned,
+        "receivers": _receivers,
     }
     return {
         name: template(f"{name}.j2").render(context)
@@ -78,8 +78,20 @@ def _import_order(name: str) -> tuple[bool, str]:
     return name[0].islower(), name.lower()
 
 
-def _tuple_of(names: tuple[str, ...]) -> str:
-    return f"({', '.join(map(quote, names))}{',' if len(names) == 1 else ''})"
+def _assigned(target: str, value: str) -> str:
+    """An assignment in a block, in parentheses where it is too long, as the formatter wants it."""
+    line = f"    {target} = {value}"
+    return line if len(line) <= _LONGEST_LINE else f"    {target} = (\n        {value}\n    )"
+
+
+def _receivers(message: Message) -> str:
+    """The class variable with the receivers, one a line where they are too many for one."""
+    target = "    RECEIVERS: ClassVar[tuple[str, ...]] ="
+    names = [quote(name) for name in message.receivers]
+    line = f"{target} ({', '.join(names)}{',' if len(names) == 1 else ''})"
+    if len(line) <= _LONGEST_LINE:
+        return line
+    return "\n".join((f"{target} (", *(f"        {name}," for name in names), "    )"))
 
 
 def _fields(message: Message) -> list[_StubField]:
@@ -143,7 +155,7 @@ def _physical(signal: Signal, raw: int) -> float:
 def _expression(signal: Signal, kind: Kind, raw: str) -> str:
     """Python that turns a raw value into the field's."""
     if kind in (Kind.LABELLED, Kind.CHARACTER):
-        table = _code_table_name(signal, kind)
+        table = _code_table_name(signal)
         return f"{table}[{raw}]" if signal.length <= _TABLE_BITS else f"{table}.get({raw}, {raw})"
     value = raw
     if kind is Kind.PHYSICAL:
@@ -193,7 +205,7 @@ def _labels_name(table: ValueTable) -> str:
     return "".join(f"_{c}" if c.isupper() and i else c for i, c in enumerate(table.name)).upper()
 
 
-def _code_table_name(signal: Signal, kind: Kind) -> str:
+def _code_table_name(signal: Signal) -> str:
     table = signal.value_table
     return f"_{_labels_name(table)}_{signal.length}" if table else ""
 
@@ -211,7 +223,7 @@ def _code_tables(stubs: list[tuple[Message, list[_StubField]]]) -> list[tuple[st
                     source = f"code_table({source}, {field.signal.length})"
                 elif labelled:
                     source = f"{{member.value: member for member in {source}}}"
-                tables[_code_table_name(field.signal, field.kind)] = source
+                tables[_code_table_name(field.signal)] = source
     return sorted(tables.items())
 
 
@@ -219,16 +231,18 @@ def _members(table: ValueTable) -> dict[int, str]:
     return member_names([(code.value, code.english) for code in table.codes])
 
 
-def _enum_doc(table: ValueTable, users: tuple[Signal, ...]) -> str:
-    others = f" and {len(users) - 1} more" if len(users) > 1 else ""
-    return f"Codes of {users[0].name}{others}, {users[0].reference}."
+def _enum_doc(users: tuple[Signal, ...]) -> str:
+    first, *others = users
+    more = f" and {len(others)} more" if others else ""
+    return f"Codes of {first.name}{more}, {first.reference}."
 
 
 def _field_doc(signal: Signal) -> str:
-    title = f" ({signal.title})" if signal.title and signal.title != signal.english else ""
+    english = signal.english or signal.title or signal.name
+    title = f" ({signal.title})" if signal.title not in ("", english) else ""
     unit = f" {signal.unit}" if signal.unit else ""
     limits = f"{number(signal.minimum)} to {number(signal.maximum)}{unit}"
-    text = f"{signal.english}{title}: {limits}. {signal.name}, {signal.reference}."
+    text = f"{english}{title}: {limits}. {signal.name}, {signal.reference}."
     return _wrapped(text)
 
 
@@ -237,8 +251,11 @@ def _message_doc(message: Message) -> str:
     while_ = f", sent {message.condition}" if message.condition else ""
     route = f"{message.sender} to {' and '.join(message.receivers)}"
     facts = f"Identifier 0x{message.frame_id:08X}, {route}{when}{while_}. {message.reference}."
-    return f"{message.english}.\n\n    {message.title}.\n\n    {_wrapped(facts)}"
+    title = f"{message.title}.\n\n    " if message.title else ""
+    return f"{message.english or message.name}.\n\n    {title}{_wrapped(facts)}"
 
 
 def _wrapped(text: str) -> str:
-    return "\n    ".join(textwrap.wrap(text, _WIDTH, break_long_words=False, break_on_hyphens=False))
+    return "\n    ".join(
+        textwrap.wrap(text, _WIDTH, break_long_words=False, break_on_hyphens=False)
+    )

@@ -47,8 +47,10 @@ class Subject:
     unused_waivers: tuple[Waiver, ...] = ()
 
 
-Check = Callable[[Subject], Iterable[tuple[Location, str, str]]]
-"""Yields place, subject and text of each finding."""
+Found = tuple[Location, str, str]
+"""Place, subject and text of a finding."""
+
+Check = Callable[[Subject], Iterable[Found]]
 
 
 @dataclass(frozen=True, slots=True)

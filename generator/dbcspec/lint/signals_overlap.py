@@ -5,17 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from dbcspec.errors import Location
 from dbcspec.layout import bits
-from dbcspec.lint.rule import Rule, Subject
+from dbcspec.lint.places import Places, has_room
+from dbcspec.lint.rule import Found, Rule, Subject
 
 
-def _check(subject: Subject) -> Iterator[tuple[Location, str, str]]:
+def _check(subject: Subject) -> Iterator[Found]:
+    places = Places(subject)
     for message in subject.protocol.messages:
-        for first, second in combinations(message.signals, 2):
-            if shared := set(bits(first)) & set(bits(second)):
-                text = f"{second.name} overlaps {first.name} at bit {min(shared)} of {message.name}"
-                yield second.where, second.name, text
+        taken = [
+            (signal, set(bits(signal))) for signal in message.signals if has_room(message, signal)
+        ]
+        for (first, first_bits), (second, second_bits) in combinations(taken, 2):
+            if shared := first_bits & second_bits:
+                text = (
+                    f"{second.name} overlaps {first.name} at bit {min(shared)} of {message.name}: "
+                    f"correct a start bit or a length"
+                )
+                yield places.layout(second, "start"), second.name, text
 
 
 RULE = Rule("signals-overlap", "no bit of a frame belongs to two signals", _check)

@@ -1,0 +1,29 @@
+"""Rule code-in-raw-range: the bits of a signal can hold every code of its value table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dbcspec.lint.places import Places, has_room
+from dbcspec.lint.rule import Found, Rule, Subject
+
+
+def _check(subject: Subject) -> Iterator[Found]:
+    places = Places(subject)
+    for message, signal in subject.protocol.signals():
+        if signal.value_table is None or not has_room(message, signal):
+            continue
+        # Signed signals too: readers differ on negative codes.
+        highest = signal.raw_limits[1]
+        outside = [
+            code.value for code in signal.value_table.codes if not 0 <= code.value <= highest
+        ]
+        if outside:
+            text = (
+                f"{signal.name}: no code of {signal.length} bits can be "
+                f"{', '.join(map(str, outside))}, only 0~{highest}: correct the codes or the length"
+            )
+            yield places.meaning(signal, "codes"), signal.name, text
+
+
+RULE = Rule("code-in-raw-range", "a signal's bits can hold every code of its value table", _check)

@@ -1,0 +1,57 @@
+"""Rule node-declared: senders, receivers and bus members are declared nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from dbcspec.errors import Location
+from dbcspec.lint.places import node_names
+from dbcspec.lint.rule import Found, Rule, Subject
+from dbcspec.model import NOWHERE, Protocol
+from dbcspec.rows import Spec
+
+_Mention = tuple[Location, str, str]
+"""Place, the node named there, and by what."""
+
+
+def _check(subject: Subject) -> Iterator[Found]:
+    declared = [node.name for node in subject.protocol.nodes]
+    mentions = _in_spec(subject.spec) if subject.spec else _in_model(subject.protocol)
+    for where, node, what in mentions:
+        if node not in declared:
+            close = get_close_matches(node, declared, n=1)
+            hint = f" (the closest is {close[0]})" if close else ""
+            text = f"{what} names {node}, which is no declared node{hint}: declare or correct it"
+            yield where, node, text
+    for message in subject.protocol.messages:
+        if not message.sender:
+            text = f"{message.name} has no sender: give one of its signals a route"
+            yield message.where, message.name, text
+
+
+def _in_spec(spec: Spec) -> Iterator[_Mention]:
+    names = node_names(spec)
+    for _, row in spec.rows():
+        sender, receivers = row.route or ("", ())
+        for node in (sender, *receivers) if row.route else ():
+            yield row.where_is("route"), names.get(node, node), f"the route of {row.name}"
+    # Other names are resolved in routes only.
+    for bus in spec.standard.buses:
+        for node in bus.nodes:
+            yield bus.where_is("nodes"), node, f"the bus {bus.name}"
+
+
+def _in_model(protocol: Protocol) -> Iterator[_Mention]:
+    for message in protocol.messages:
+        if message.sender:
+            yield message.where, message.sender, f"the message {message.name}"
+    for _, signal in protocol.signals():
+        for node in signal.receivers:
+            yield signal.where, node, f"the signal {signal.name}"
+    for bus in protocol.buses:
+        for node in bus.nodes:
+            yield NOWHERE, node, f"the bus {bus.name}"
+
+
+RULE = Rule("node-declared", "senders, receivers and bus members are declared nodes", _check)

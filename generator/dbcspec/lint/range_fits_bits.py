@@ -1,0 +1,40 @@
+"""Rule range-fits-bits: a signal's physical range is a range, and its bits can hold it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from decimal import Decimal
+
+from dbcspec.lint.places import Places, has_room
+from dbcspec.lint.rule import Found, Rule, Subject
+from dbcspec.model import Signal
+
+
+def _check(subject: Subject) -> Iterator[Found]:
+    places = Places(subject)
+    for message, signal in subject.protocol.signals():
+        if has_room(message, signal) and (fault := _fault(signal)):
+            yield places.meaning(signal, "range"), signal.name, f"{signal.name}: {fault}"
+
+
+def _fault(signal: Signal) -> str | None:
+    shown = f"{_plain(signal.minimum)}~{_plain(signal.maximum)}"
+    if signal.minimum == signal.maximum == 0:
+        return "the range 0~0 means none at all in a DBC file: give the real one"
+    if signal.minimum >= signal.maximum:
+        return f"the range {shown} does not ascend: correct it"
+    low, high = sorted(raw * signal.factor + signal.offset for raw in signal.raw_limits)
+    if signal.minimum < low or signal.maximum > high:
+        bits = "bit holds" if signal.length == 1 else "bits hold"
+        return (
+            f"the range {shown} is not within {_plain(low)}~{_plain(high)}, what {signal.length} "
+            f"{bits}: correct range, factor or offset"
+        )
+    return None
+
+
+def _plain(value: Decimal) -> str:
+    return f"{value.normalize():f}"
+
+
+RULE = Rule("range-fits-bits", "a signal's range is a range, and its bits can hold it", _check)

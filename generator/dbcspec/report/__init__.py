@@ -1,0 +1,1 @@
+"""Findings of linter and comparison as text, JSON, Markdown, SARIF, JUnit, HTML and annotations."""

@@ -1,0 +1,61 @@
+"""What every report format prints: one finding, whoever found it, and the rules behind it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dbcspec.errors import Location
+
+LEVELS = ("error", "wire", "source", "additive", "cosmetic")
+"""From the gravest; lint findings are errors, those of a comparison have its classes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Item:
+    """A finding.
+
+    ``group`` is the message it belongs to, or "" for the protocol as a whole; ``subject`` what
+    is spoken of; ``breaks`` names the side that a change breaks; ``old`` and ``new`` are empty
+    where there is nothing to compare.
+    """
+
+    rule: str
+    level: str
+    group: str
+    subject: str
+    text: str
+    where: Location
+    breaks: str = ""
+    old: str = ""
+    new: str = ""
+
+    @property
+    def fingerprint(self) -> str:
+        """Eight hexadecimal digits that stay while rule, subject, old and new stay."""
+        parts = (self.rule, self.group, self.subject, self.old, self.new or self.text)
+        return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:8]
+
+
+@dataclass(frozen=True, slots=True)
+class RuleInfo:
+    """A rule as reports describe it."""
+
+    id: str
+    purpose: str
+    level: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """All findings of one run, in the order in which they are shown."""
+
+    title: str
+    items: Sequence[Item]
+    rules: Sequence[RuleInfo]
+
+    def counts(self) -> dict[str, int]:
+        """How many items each level has, gravest first, empty levels left out."""
+        every = {level: sum(item.level == level for item in self.items) for level in LEVELS}
+        return {level: count for level, count in every.items() if count}

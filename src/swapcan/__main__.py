@@ -1,0 +1,16 @@
+"""Entry point of the `swapcan` command."""
+
+from __future__ import annotations
+
+import sys
+
+from swapcan.cli import run
+
+
+def main() -> int:
+    """Run the command line with the arguments of this process; return its exit status."""
+    return run(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

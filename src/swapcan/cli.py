@@ -1,0 +1,106 @@
+"""The `swapcan` command line: demo, decode, send, listen."""
+
+from __future__ import annotations
+
+import argparse
+import io
+import logging
+import os
+import sys
+from collections.abc import Callable, Sequence
+from importlib.metadata import PackageNotFoundError, version
+
+import can
+
+from swapcan.commands import decode, demo, listen, send
+from swapcan.console import CommandError, Parser, note, one_line, say
+from swapcan.errors import SwapcanError
+
+_COMMANDS = (demo.COMMAND, decode.COMMAND, send.COMMAND, listen.COMMAND)
+
+_EXAMPLES = """examples:
+  swapcan demo                                        a pack and a truck on a virtual bus
+  swapcan decode drive.blf                            the messages in a log
+  swapcan listen -i socketcan -c can0                 the messages on a bus
+  swapcan send B2V_ST2 soc=80 -i socketcan -c can0    one message onto a bus
+
+exit status: 0 all is well, 1 the demo missed something, 2 the command could not do its work"""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command line with its arguments and return the exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a narrow code page shows ? instead
+    # What is wrong with a bus is raised; python-can's log would say it a second time.
+    logging.getLogger("can").addHandler(logging.NullHandler())
+    try:
+        status = _dispatch(arguments)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader went away: leave quietly, and keep the interpreter from flushing into it.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    return status
+
+
+def _dispatch(arguments: Sequence[str]) -> int:
+    try:
+        options = _parser().parse_args(arguments)
+        command: Callable[[argparse.Namespace], int] = options.run
+        return command(options)
+    except (SwapcanError, can.CanError) as error:
+        note(one_line(error))
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except SystemExit as leaving:  # argparse has printed help or version
+        return leaving.code if isinstance(leaving.code, int) else 0
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        prog="swapcan",
+        description="The CAN protocol of battery-swap heavy trucks: watch it, decode it, send it.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"swapcan {_version()}")
+    parser.add_argument(
+        "--print-completion",
+        choices=("bash", "zsh", "tcsh"),
+        help="print a completion script for a shell",
+    )
+    parser.set_defaults(run=lambda options: _no_command(parser, options.print_completion))
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
+    for command in _COMMANDS:
+        part = commands.add_parser(
+            command.name,
+            help=command.help,
+            description=f"{command.help[0].upper()}{command.help[1:]}.",
+            epilog=f"examples:\n{command.examples}",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        part.set_defaults(run=command.run)
+        command.add_arguments(part)
+    return parser
+
+
+def _version() -> str:
+    try:
+        return version("swapcan")
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
+    """Print a completion script, or help where none is asked for either."""
+    if shell is None:
+        parser.print_help(sys.stderr)
+        return 2
+    try:
+        import shtab
+    except ModuleNotFoundError:
+        raise CommandError("completion needs shtab: pip install 'swapcan[completion]'") from None
+    say(shtab.complete(parser, shell))
+    return 0

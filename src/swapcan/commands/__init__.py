@@ -1,0 +1,1 @@
+"""The commands of `swapcan`, a module each, and what they share."""

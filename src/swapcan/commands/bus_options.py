@@ -1,0 +1,68 @@
+"""The options that name a bus, with python-can's own names, and opening it."""
+
+from __future__ import annotations
+
+import argparse
+
+import can
+
+from swapcan.console import CommandError, one_line
+
+_FAILURES = (
+    can.CanError,
+    OSError,
+    TypeError,  # an argument that the interface does not know
+    ValueError,
+    # What some interfaces raise without their driver, kvaser and neovi among them:
+    AttributeError,
+    ImportError,
+    NameError,
+    RuntimeError,
+)
+
+
+def add_bus_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that python-can's own programs have.
+
+    `can.cli` has them ready made from python-can 4.6 on; its ``--timing`` prints to stdout, and
+    it hides why a bus cannot be opened.
+    """
+    group = parser.add_argument_group(
+        "bus", "What is left out comes from python-can's configuration files and variables."
+    )
+    group.add_argument(
+        "-i",
+        "--interface",
+        choices=sorted(can.VALID_INTERFACES),
+        metavar="INTERFACE",
+        help="one of python-can's, such as socketcan, pcan, vector, udp_multicast",
+    )
+    group.add_argument("-c", "--channel", help="such as can0, PCAN_USBBUS1, 0")
+    group.add_argument("-b", "--bitrate", type=int, help="in bit/s; the protocol has 250000")
+    group.add_argument(
+        "--bus-kwargs",
+        nargs="+",
+        action="extend",
+        type=_assignment,
+        default=[],
+        metavar="NAME=VALUE",
+        help="further arguments of the interface, such as app_name=MyApp",
+    )
+
+
+def open_bus(options: argparse.Namespace) -> can.BusABC:
+    """The bus that the options name; raises `CommandError` where it cannot be opened."""
+    named = {name: getattr(options, name) for name in ("interface", "channel", "bitrate")}
+    given = {name: value for name, value in named.items() if value is not None}
+    try:
+        return can.Bus(**{**dict(options.bus_kwargs), **given})
+    except _FAILURES as error:
+        hint = "" if options.interface else "; --interface names one"
+        raise CommandError(f"cannot open the bus: {one_line(error)}{hint}") from None
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (equals and name.isidentifier()):
+        raise argparse.ArgumentTypeError(f"expected NAME=VALUE, not {text!r}")
+    return name, value

@@ -1,0 +1,61 @@
+"""`swapcan listen`: the messages on a bus, as they arrive."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+
+import can
+
+from swapcan.commands.bus_options import add_bus_options, open_bus
+from swapcan.commands.transcript import Transcript
+from swapcan.console import Command, note, seconds
+
+_WAIT = 0.5
+"""Seconds in one call of the bus: some systems let Ctrl-C through only between two calls."""
+
+
+def _add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--json", action="store_true", help="print one JSON object a line")
+    parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
+    parser.add_argument("--count", type=_count, default=math.inf, help="end after so many messages")
+    add_bus_options(parser)
+
+
+def _count(text: str) -> int:
+    if not (text.isdecimal() and int(text)):
+        raise argparse.ArgumentTypeError(f"expected a positive whole number, not {text!r}")
+    return int(text)
+
+
+def _run(options: argparse.Namespace) -> int:
+    transcript = Transcript(as_json=options.json, live=True)
+    with open_bus(options) as bus:
+        note(f"listening on {bus.channel_info}, Ctrl-C ends")
+        try:
+            _copy(bus, transcript, options.count, time.monotonic() + options.seconds)
+        except (KeyboardInterrupt, can.CanError):
+            note(transcript.summary())
+            raise
+    note(transcript.summary())
+    return 0
+
+
+def _copy(bus: can.BusABC, transcript: Transcript, count: float, deadline: float) -> None:
+    """Show frames until there were enough messages, or it is time."""
+    while transcript.messages < count and (left := deadline - time.monotonic()) > 0:
+        frame = bus.recv(min(left, _WAIT))
+        if frame:
+            transcript.show(frame)
+
+
+COMMAND = Command(
+    name="listen",
+    help="print the messages on a bus as they arrive, until Ctrl-C",
+    examples="""  swapcan listen -i socketcan -c can0
+  swapcan listen -i pcan -c PCAN_USBBUS1 -b 250000 --json --seconds 10
+  swapcan listen -i udp_multicast -c 239.74.163.2 --count 1""",
+    add_arguments=_add_arguments,
+    run=_run,
+)

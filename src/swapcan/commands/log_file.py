@@ -1,0 +1,90 @@
+"""Log files through python-can, with every damage an error: its readers pass over some of it."""
+
+from __future__ import annotations
+
+import logging
+import sqlite3
+import struct
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import can
+from can.io.blf import BLFParseError
+from can.io.generic import MessageReader
+
+from swapcan.console import CommandError, one_line
+
+_DAMAGE = (
+    BLFParseError,
+    EOFError,  # gzip
+    IndexError,
+    KeyError,
+    NotImplementedError,  # a version of the format, or a package that is missing
+    OSError,
+    TypeError,
+    ValueError,
+    sqlite3.Error,
+    struct.error,
+    zlib.error,
+)
+
+
+class LogFileError(CommandError):
+    """A log file that is damaged, or cut short."""
+
+
+class _Complaints(logging.Handler):
+    """What python-can's readers log about lines that they leave out."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.texts: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep the text."""
+        self.texts.append(record.getMessage())
+
+
+def read_log(path: Path) -> Iterator[can.Message]:
+    """The frames of a log.
+
+    Raises `CommandError` where there is no such log, and `LogFileError`, after the frames that
+    could be read, where it is damaged.
+    """
+    complaints = _Complaints()
+    logger = logging.getLogger("can.io")
+    logger.addHandler(complaints)
+    try:
+        with _open(path) as reader:
+            yield from reader
+            if isinstance(reader, can.BLFReader) and path.suffix.lower() == ".blf":
+                _check_size(path, reader.file_size)
+    except _DAMAGE as error:
+        raise LogFileError(f"{path}: damaged: {one_line(error)}") from None
+    finally:
+        logger.removeHandler(complaints)
+    if complaints.texts:
+        count = len(complaints.texts)
+        raise LogFileError(f"{path}: damaged: lines left out: {count}, {complaints.texts[0]}")
+
+
+def _open(path: Path) -> MessageReader:
+    try:
+        path.open("rb").close()  # SQLite would create a file that is not there
+    except OSError as error:
+        raise CommandError(f"{path}: {error.strerror}") from None
+    try:
+        return can.LogReader(path)
+    except _DAMAGE as error:
+        known = ""
+        if path.suffix.lower() not in (*can.io.MESSAGE_READERS, ".gz"):
+            known = f"; known are {', '.join(sorted(can.io.MESSAGE_READERS))}"
+        raise CommandError(f"{path}: cannot be read: {one_line(error)}{known}") from None
+
+
+def _check_size(path: Path, expected: int) -> None:
+    """A BLF file that was cut short: python-can reads what is left of it without a word."""
+    size = path.stat().st_size
+    if size < expected:
+        raise ValueError(f"{size} bytes are left of {expected}")

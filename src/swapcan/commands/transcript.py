@@ -1,0 +1,147 @@
+"""Frames as lines of text or JSON, the same for logs and for a live bus.
+
+A decoded frame in JSON, one object a line:
+
+    {"timestamp": 1.5, "channel": 0, "id": 411226355, "message": "B2V_ST1",
+     "signals": {"B2V_ST1_BMS": {"value": 2, "label": "HV closed"}, "B2V_ST1_ALIV": null, ...},
+     "states": {"B2V_ST1_ALIV": "Signal Invalid"},
+     "faults": [{"kind": "counter", "text": "counter is Signal Invalid, it runs 0 to 14"}]}
+
+Signals have their DBC names. A physical value or a count is a number, in the unit of the DBC; a
+code is an object, with a null label where it has none; a character is a string, or the number of
+its code where that is no character. A signal that says invalid or abnormal instead of a value is
+null, and ``states`` says which. A frame of a known message with a wrong length or checksum has
+no signals but its bytes and what is wrong:
+
+    {"timestamp": 1.6, "channel": 0, "id": 411226355, "message": "B2V_ST1", "data": "00FF...",
+     "fault": {"kind": "checksum", "text": "checksum is 0x00, the bytes make 0xFF"}}
+
+Frames of other protocols are counted only.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import can
+
+from swapcan.bus import Fault, Received, Receiver
+from swapcan.console import say
+from swapcan.message import LabelledField, Message, SignalState
+from swapcan.messages import MESSAGES
+
+_NAME_WIDTH = max(len(kind.NAME) for kind in MESSAGES)
+
+
+class Transcript:
+    """Prints frames as they come, and counts them.
+
+    Parameters
+    ----------
+    as_json
+        Whether the lines are JSON.
+    live
+        Whether each line is to be seen at once, also through a pipe.
+    """
+
+    def __init__(self, *, as_json: bool, live: bool = False) -> None:
+        self._as_json = as_json
+        self._live = live
+        # Alive counters run per bus, and a log can have several.
+        self._receivers: dict[object, Receiver] = {}
+        self._unknown: set[tuple[int, bool]] = set()
+        self.messages = 0
+
+    def show(self, frame: can.Message) -> None:
+        """Print one frame, unless it is none of the protocol's."""
+        taken = self._receivers.setdefault(frame.channel, Receiver()).take(frame)
+        if taken is None:
+            if not frame.is_error_frame:
+                self._unknown.add((frame.arbitration_id, frame.is_extended_id))
+            return
+        self.messages += isinstance(taken, Received)
+        line = json_line(taken) if self._as_json else text_line(taken)
+        say(line, flush=self._live)
+
+    def summary(self) -> str:
+        """How many frames there were, and what became of them."""
+        counts = [receiver.counts for receiver in self._receivers.values()]
+        unknown = sum(each.foreign for each in counts)
+        length, checksum, counter = (
+            sum(getattr(each, kind) for each in counts)
+            for kind in ("length", "checksum", "counter")
+        )
+        return (
+            f"frames {self.messages + unknown + length + checksum}, decoded {self.messages},"
+            f" unknown {unknown} (identifiers {len(self._unknown)}),"
+            f" faults {length + checksum + counter}"
+            f" (length {length}, checksum {checksum}, counter {counter})"
+        )
+
+
+def text_line(taken: Received | Fault) -> str:
+    """A message with its values, or the fault, for people."""
+    frame = taken.frame
+    channel = "-" if frame.channel is None else frame.channel
+    name = taken.message.NAME if isinstance(taken, Received) else taken.message
+    start = f"{frame.timestamp:17.6f}  {channel}  {name:<{_NAME_WIDTH}}"
+    if isinstance(taken, Fault):
+        return f"{start}  ! {taken.text}  [{frame.data.hex(' ').upper()}]"
+    faults = (f"! {fault.text}" for fault in taken.faults)
+    return "  ".join((start, *values_text(taken.message), *faults))
+
+
+def values_text(message: Message) -> list[str]:
+    """The fields of a message as name=value, with label or unit."""
+    return [
+        f"{field.name}={field.text(getattr(message, field.name))}"
+        for field in message.FIELDS.values()
+    ]
+
+
+def json_line(taken: Received | Fault) -> str:
+    """A message or a fault as a JSON object, in the shape that this module describes."""
+    frame = taken.frame
+    channel = frame.channel
+    line: dict[str, Any] = {
+        "timestamp": frame.timestamp if math.isfinite(frame.timestamp) else None,
+        "channel": channel if channel is None or isinstance(channel, int) else str(channel),
+        "id": frame.arbitration_id,
+    }
+    if isinstance(taken, Fault):
+        line |= {"message": taken.message, "data": frame.data.hex().upper()}
+        line |= {"fault": _fault(taken)}
+    else:
+        message = taken.message
+        line |= {"message": message.NAME, "signals": _signals(message), "states": _states(message)}
+        line |= {"faults": [_fault(fault) for fault in taken.faults]}
+    return json.dumps(line, allow_nan=False)
+
+
+def _fault(fault: Fault) -> dict[str, str]:
+    return {"kind": fault.kind, "text": fault.text}
+
+
+def _signals(message: Message) -> dict[str, Any]:
+    signals: dict[str, Any] = {}
+    for field in message.FIELDS.values():
+        value = getattr(message, field.name)
+        if isinstance(value, SignalState):
+            signals[field.dbc_name] = None
+        elif isinstance(field, LabelledField):
+            signals[field.dbc_name] = {"value": int(value), "label": field.labels.get(value)}
+        elif isinstance(value, float):
+            signals[field.dbc_name] = round(value, 9)  # 0.1 x 3 is not 0.3
+        else:
+            signals[field.dbc_name] = value
+    return signals
+
+
+def _states(message: Message) -> dict[str, str]:
+    return {
+        field.dbc_name: str(value)
+        for field in message.FIELDS.values()
+        if isinstance(value := getattr(message, field.name), SignalState)
+    }

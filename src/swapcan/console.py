@@ -1,0 +1,91 @@
+"""What all commands share: how they are declared, how they print, and the error of the user's."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import math
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import NoReturn
+
+from swapcan.errors import SwapcanError
+
+
+class CommandError(SwapcanError):
+    """Something that the user of the command line can mend."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command: ``help`` in one line, its examples, its arguments and what it does.
+
+    ``run`` returns the exit status.
+    """
+
+    name: str
+    help: str
+    examples: str
+    add_arguments: Callable[[argparse.ArgumentParser], None]
+    run: Callable[[argparse.Namespace], int]
+
+
+class Parser(argparse.ArgumentParser):
+    """Reports a wrong argument in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise the message as `CommandError`."""
+        raise CommandError(f"{message}; see {self.prog} --help")
+
+
+def say(text: str, *, flush: bool = False) -> None:
+    """Print a result.
+
+    Raises `BrokenPipeError` where nobody reads any more, and `CommandError` where the output
+    cannot be written.
+    """
+    try:
+        print(text, flush=flush)
+    except OSError as error:
+        if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL is what Windows says
+            raise BrokenPipeError from None
+        raise CommandError(f"cannot write the output: {error.strerror}") from None
+
+
+def note(text: str) -> None:
+    """Print a remark or an error, beside the results."""
+    print(f"swapcan: {text}", file=sys.stderr, flush=True)
+
+
+def one_line(error: BaseException) -> str:
+    """The text of an error and of its cause, in one line."""
+    texts = [_text(error)]
+    if error.__cause__ and _text(error.__cause__) not in texts[0]:
+        texts.append(_text(error.__cause__))
+    return ": ".join(texts)
+
+
+def _text(error: BaseException) -> str:
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def aligned(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """The lines of a table."""
+    table = [headings, ["-" * len(heading) for heading in headings], *rows]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    table[1] = ["-" * width for width in widths]
+    for row in table:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()
+
+
+def seconds(text: str) -> float:
+    """A positive number of seconds, as the type of an argument."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"expected a positive number of seconds, not {text!r}")
+    return value

@@ -1,0 +1,157 @@
+"""The DBC of a protocol that has what this standard has not: 11-bit frames, signs, no receivers."""
+
+from __future__ import annotations
+
+import dataclasses
+from decimal import Decimal
+
+import cantools
+import pytest
+from cantools.database.can import Database
+from emit.dbc_lines import Dbc
+
+from dbcspec.emit.dbc import emit_dbc, number
+from dbcspec.errors import Location
+from dbcspec.model import (
+    Bus,
+    ByteOrder,
+    Code,
+    Message,
+    Node,
+    Protocol,
+    SendType,
+    Signal,
+    ValueTable,
+)
+
+SPEED = Signal(
+    name="Wheel_Speed",
+    english="Wheel speed",
+    start=7,
+    length=12,
+    byte_order=ByteOrder.MOTOROLA,
+    signed=True,
+    factor=Decimal("0.0625"),
+    offset=Decimal("-2.50"),
+    minimum=Decimal("-1E+2"),
+    maximum=Decimal(100),
+    unit="m/s",
+    receivers=("ABS", "TCU"),
+)
+GEAR = Signal(
+    name="Gear",
+    english="Gear",
+    start=16,
+    length=3,
+    minimum=Decimal(0),
+    maximum=Decimal(7),
+    value_table=ValueTable("Gears", (Code(0, "N", "Neutral"), Code(7, "R", "Reverse"))),
+    start_value=7,
+)
+OTHER = Protocol(
+    name="other-car",
+    english="Another car",
+    title="Ein anderes Auto",
+    frame_format="StandardCAN",
+    nodes=(Node(name="ECU", english="Engine", address=1), Node(name="ABS"), Node(name="TCU")),
+    buses=(
+        Bus(name="body", bit_rate=125_000, nodes=("ECU",)),
+        Bus(name="chassis", bit_rate=500_000, nodes=("ECU", "ABS")),
+    ),
+    messages=(
+        Message(
+            name="Wheels",
+            english="Wheels",
+            frame_id=0x123,
+            extended=False,
+            length=4,
+            sender="ECU",
+            period=100_000,
+            send_type=SendType.CYCLIC,
+            signals=(SPEED, GEAR),
+        ),
+        Message(name="Hello", english="Hello", frame_id=0x7FF, extended=False, length=0, sender=""),
+    ),
+    value_tables=(ValueTable("Gears", (Code(0, "N", "Neutral"), Code(7, "R", "Reverse"))),),
+)
+
+
+def rendered(protocol: Protocol = OTHER, bus: Bus | None = None) -> Dbc:
+    return Dbc(protocol.name, emit_dbc(protocol, bus=bus).encode("ascii"), "ascii")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        ("0", "0"),
+        ("-0.0", "0"),
+        ("1E+3", "1000"),
+        ("0.10", "0.1"),
+        ("0.0000001", "0.0000001"),
+        ("-40", "-40"),
+        ("1677721.5", "1677721.5"),
+    ],
+)
+def test_a_number_is_a_plain_decimal_without_trailing_zeros(value: str, text: str) -> None:
+    assert number(Decimal(value)) == text
+
+
+def test_lines_have_the_allowed_shape_and_say_what_the_model_says() -> None:
+    texts = [line.text for line in rendered().lines]
+    assert "BU_: ECU ABS TCU" in texts
+    assert "BO_ 291 Wheels: 4 ECU" in texts
+    assert ' SG_ Wheel_Speed : 7|12@0- (0.0625,-2.5) [-100|100] "m/s" ABS,TCU' in texts
+    assert ' SG_ Gear : 16|3@1+ (1,0) [0|7] "" Vector__XXX' in texts
+    assert "BO_ 2047 Hello: 0 Vector__XXX" in texts
+    assert 'VAL_ 291 Gear 0 "Neutral" 7 "Reverse" ;' in texts
+
+
+def test_an_11_bit_frame_says_so_in_its_frame_format() -> None:
+    assert rendered().values("VFrameFormat") == {"291": "0", "2047": "0"}
+
+
+def test_a_long_period_fits_the_definition_of_the_attribute() -> None:
+    definition = next(
+        each for each in rendered().of("BA_DEF_") if each["name"] == "GenMsgCycleTime"
+    )
+    assert definition["type"] == "INT 0 100000"
+
+
+def test_buses_of_different_bit_rates_give_one_each_and_the_whole_file_none() -> None:
+    assert rendered().values("Baudrate") == {}
+    body, chassis = OTHER.buses
+    assert rendered(bus=body).values("Baudrate") == {"": "125000"}
+    assert rendered(bus=chassis).values("Baudrate") == {"": "500000"}
+
+
+def test_the_file_of_a_bus_leaves_out_what_nobody_on_it_hears() -> None:
+    body, chassis = OTHER.buses
+    quiet = rendered(bus=body)
+    assert (quiet.nodes, quiet.of("BO_"), quiet.of("VAL_TABLE_")) == (["ECU"], [], [])
+    heard = rendered(bus=chassis)
+    assert [parts["name"] for parts in heard.of("BO_")] == ["Wheels"]
+    assert [signal.receivers for signal in heard.signals] == [("ABS",), ("Vector__XXX",)]
+
+
+def test_a_node_without_an_address_gets_none() -> None:
+    assert rendered().values("NmStationAddress") == {"ECU": "1"}
+
+
+def test_another_reader_finds_the_values_of_the_model() -> None:
+    dbc = cantools.database.load_string(emit_dbc(OTHER), "dbc", strict=True)
+    assert isinstance(dbc, Database)
+    wheels = dbc.get_message_by_frame_id(0x123)
+    assert not wheels.is_extended_frame
+    # 0xFFF in bits 7 to 0 of byte 0 and 7 to 4 of byte 1 is -1: -1 * 0.0625 - 2.5 = -2.5625.
+    assert wheels.decode_simple(bytes((0xFF, 0xF0, 0x07, 0))) == {
+        "Wheel_Speed": -2.5625,
+        "Gear": "Reverse",
+    }
+
+
+def test_the_digest_changes_with_the_model_but_not_with_a_place_in_the_spec() -> None:
+    wheels, hello = OTHER.messages
+    moved = dataclasses.replace(wheels, where=Location("messages.yaml", 99))
+    faster = dataclasses.replace(wheels, period=99)
+    assert dataclasses.replace(OTHER, messages=(moved, hello)).digest == OTHER.digest
+    assert dataclasses.replace(OTHER, messages=(faster, hello)).digest != OTHER.digest

@@ -1,0 +1,92 @@
+"""What the README prints works: its Python, its commands, and the two that CI runs as printed."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import can
+import pytest
+
+import swapcan
+from swapcan.messages import B2V_ST2
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text("utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    """The fenced blocks of one language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+
+
+def commands() -> list[str]:
+    return [
+        line.removeprefix("$ ")
+        for block in blocks("console")
+        for line in block.splitlines()
+        if line.startswith("$ ")
+    ]
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A copy of what the commands read and write, with the log that they name."""
+    for part in ("spec", "dbc", "src/swapcan/_generated"):
+        shutil.copytree(ROOT / part, tmp_path / part)
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    frame = can.Message(
+        timestamp=1.0, arbitration_id=B2V_ST2.FRAME_ID, data=swapcan.encode(B2V_ST2(soc=80.0))
+    )
+    with can.Logger(str(tmp_path / "drive.asc")) as log:
+        log.on_message_received(frame)
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", commands())
+def test_a_command_of_the_readme_runs(command: str, project: Path) -> None:
+    name, *arguments = shlex.split(command)
+    done = subprocess.run(
+        [sys.executable, "-m", name, *arguments],
+        cwd=project,
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_python_of_the_readme_prints_what_was_sent(tmp_path: Path) -> None:
+    (snippet,) = blocks("python")
+    script = tmp_path / "readme.py"
+    script.write_text(snippet, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(script)], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    first, second = done.stdout.splitlines()
+    assert first.split()[:2] == ["80.0", "-120.5"]
+    assert "Signal Invalid" in first
+    assert "HV_ON" in second
+    assert "vehicle_speed=42.0" in second
+
+
+def test_ci_runs_the_two_commands_as_the_readme_prints_them() -> None:
+    script = (ROOT / ".ci" / "run").read_text("utf-8")
+    for name in ("main", "tests"):
+        assert f"<!-- command: {name} -->\n```sh\n" in README
+        assert f"readme_command {name}" in script
+
+
+def test_every_file_that_the_readme_names_is_there() -> None:
+    named = re.findall(r"`((?:dbc|spec)/[\w./-]+)`|\]\(([\w/.]+)\)", README)
+    assert named
+    assert [name for names in named for name in names if not (ROOT / name).exists()] == []
