@@ -9,7 +9,10 @@ from swapcan.cli import run
 
 def main() -> int:
     """Run the command line with the arguments of this process; return its exit status."""
-    return run(sys.argv[1:])
+    try:
+        return run(sys.argv[1:])
+    except KeyboardInterrupt:  # before a command began, or a second one
+        return 130
 
 
 if __name__ == "__main__":

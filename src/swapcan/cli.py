@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import io
 import logging
-import os
 import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import PackageNotFoundError, version
@@ -13,7 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 import can
 
 from swapcan.commands import decode, demo, listen, send
-from swapcan.console import CommandError, Parser, note, one_line, say
+from swapcan.console import CommandError, Parser, finish, note, one_line, say
 from swapcan.errors import SwapcanError
 
 _COMMANDS = (demo.COMMAND, decode.COMMAND, send.COMMAND, listen.COMMAND)
@@ -36,10 +35,11 @@ def run(arguments: Sequence[str]) -> int:
     logging.getLogger("can").addHandler(logging.NullHandler())
     try:
         status = _dispatch(arguments)
-        sys.stdout.flush()
-    except BrokenPipeError:
-        # The reader went away: leave quietly, and keep the interpreter from flushing into it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        finish()
+    except (SwapcanError, can.CanError) as error:
+        note(one_line(error))
+        return 2
+    except BrokenPipeError:  # the reader went away: leave quietly
         return 1
     return status
 
@@ -49,12 +49,9 @@ def _dispatch(arguments: Sequence[str]) -> int:
         options = _parser().parse_args(arguments)
         command: Callable[[argparse.Namespace], int] = options.run
         return command(options)
-    except (SwapcanError, can.CanError) as error:
-        note(one_line(error))
-        return 2
     except KeyboardInterrupt:
         return 130
-    except SystemExit as leaving:  # argparse has printed help or version
+    except SystemExit as leaving:  # help or version was printed
         return leaving.code if isinstance(leaving.code, int) else 0
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import errno
 import math
+import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -45,9 +47,24 @@ def say(text: str, *, flush: bool = False) -> None:
     Raises `BrokenPipeError` where nobody reads any more, and `CommandError` where the output
     cannot be written.
     """
-    try:
+    with _writing():
         print(text, flush=flush)
+
+
+def finish() -> None:
+    """Write what `say` has printed and is still on its way; raises as `say`."""
+    with _writing():
+        if sys.stdout:
+            sys.stdout.flush()
+
+
+@contextmanager
+def _writing() -> Iterator[None]:
+    try:
+        yield
     except OSError as error:
+        # Keep the interpreter from writing the rest when it ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL is what Windows says
             raise BrokenPipeError from None
         raise CommandError(f"cannot write the output: {error.strerror}") from None
@@ -55,7 +72,8 @@ def say(text: str, *, flush: bool = False) -> None:
 
 def note(text: str) -> None:
     """Print a remark or an error, beside the results."""
-    print(f"swapcan: {text}", file=sys.stderr, flush=True)
+    if sys.stderr:  # else print would take stdout
+        print(f"swapcan: {text}", file=sys.stderr, flush=True)
 
 
 def one_line(error: BaseException) -> str:

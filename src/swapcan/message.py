@@ -166,7 +166,9 @@ class CharacterField(Field):
 
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send; raises `EncodeError`."""
-        if isinstance(value, str) and len(value) == 1 and ord(value) in self.labels:
+        if isinstance(value, SignalState):
+            return self._state(message, value)
+        if isinstance(value, str) and len(value) == 1 and self.labels.get(ord(value)) == value:
             return ord(value)
         if isinstance(value, int) and 0 <= value < 1 << self.length:
             return int(value)
@@ -175,7 +177,7 @@ class CharacterField(Field):
 
     def text(self, value: Value) -> str:
         """The character, or the code where it is none."""
-        return value if isinstance(value, str) else f"0x{value:02X}"
+        return f"0x{value:02X}" if isinstance(value, int) else str(value)
 
 
 class FilledField(NumberField):

@@ -30,7 +30,7 @@ def _run(options: argparse.Namespace) -> int:
         for frame in read_log(options.file):
             transcript.show(frame)
     except LogFileError as error:
-        raise CommandError(f"{error}; before that: {transcript.summary()}") from None
+        raise CommandError(f"{error}; read: {transcript.summary()}") from None
     note(transcript.summary())
     return 0
 

@@ -71,6 +71,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     traffic = Traffic()
+    note(f"pack and truck talk for {options.seconds:g} s, Ctrl-C ends")
     with ExitStack() as open_buses:
         world = _World(open_buses, options.seconds)
         world.run(options.seconds, traffic)

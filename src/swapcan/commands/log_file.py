@@ -43,7 +43,9 @@ class _Complaints(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Keep the text."""
-        self.texts.append(record.getMessage())
+        line = str(record.args[0]) if isinstance(record.args, tuple) and record.args else "?"
+        if line and not line.startswith(";"):  # TRCReader tries the last line of a header too
+            self.texts.append(record.getMessage())
 
 
 def read_log(path: Path) -> Iterator[can.Message]:
@@ -57,11 +59,11 @@ def read_log(path: Path) -> Iterator[can.Message]:
     logger.addHandler(complaints)
     try:
         with _open(path) as reader:
-            yield from reader
+            yield from map(_checked, reader)
             if isinstance(reader, can.BLFReader) and path.suffix.lower() == ".blf":
                 _check_size(path, reader.file_size)
     except _DAMAGE as error:
-        raise LogFileError(f"{path}: damaged: {one_line(error)}") from None
+        raise LogFileError(f"{path}: damaged: {_reason(error)}") from None
     finally:
         logger.removeHandler(complaints)
     if complaints.texts:
@@ -80,7 +82,18 @@ def _open(path: Path) -> MessageReader:
         known = ""
         if path.suffix.lower() not in (*can.io.MESSAGE_READERS, ".gz"):
             known = f"; known are {', '.join(sorted(can.io.MESSAGE_READERS))}"
-        raise CommandError(f"{path}: cannot be read: {one_line(error)}{known}") from None
+        raise CommandError(f"{path}: cannot be read: {_reason(error)}{known}") from None
+
+
+def _checked(frame: can.Message) -> can.Message:
+    """The frame, if it is one: a damaged SQLite file gives rows without values."""
+    if not (isinstance(frame.arbitration_id, int) and isinstance(frame.timestamp, int | float)):
+        raise ValueError("a frame without identifier or time")  # noqa: TRY004
+    return frame
+
+
+def _reason(error: Exception) -> str:
+    return "it ends too early" if isinstance(error, EOFError | struct.error) else one_line(error)
 
 
 def _check_size(path: Path, expected: int) -> None:

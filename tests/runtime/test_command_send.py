@@ -1,0 +1,142 @@
+"""`swapcan send`: what is typed, what goes out, and what is refused with nothing going out."""
+
+from __future__ import annotations
+
+import can
+import pytest
+
+from swapcan import cli
+
+Capture = pytest.CaptureFixture[str]
+
+
+def send(channel: str, *words: str) -> int:
+    return cli.run(["send", *words, "-i", "virtual", "-c", channel])
+
+
+@pytest.mark.parametrize(
+    ("words", "data"),
+    [
+        (["B2V_ST2", "soc=80", "current=-120.5"], "c8ff5b22ffffffff"),
+        (["b2v_st2", "SOC=80", "B2V_ST2_Current=-120.5"], "c8ff5b22ffffffff"),
+        (["B2V_ST2", "soc = 8e1", "soh=invalid"], "c8ffffffffffffff"),
+        (["B2V_ST5", "max_ucell=Abnormal", "avg_ucell=3.3"], "fe1fff00e40c0000"),
+        (["B2V_ST5", "max_ucell_csc_no=18", "max_ucell_position=0x0c"], "ff1f120cff1f0000"),
+        (["B2V_RQ", "vin=Request VIN", "hv_off=2"], "0900000000000000"),
+        (["B2V_RQ", "vin=request_vin", "hv_off=INVALID"], "0d00000000000000"),
+        (["B2V_RQ", "vin=no request vin", "hv_off=0x1"], "0600000000000000"),
+        (["B2V_ST1", "bms=hv closed"], "2020000000000000"),
+        (["B2V_BattInfo1", "batt_type=reserved_12"], "ffffffffffff0c00"),
+        (["B2V_BattInfo1", "batt_type=Ternary (NMC or NCA)"], "ffffffffffff0600"),
+        (["V2B_VIN", "frame_no=1", "b1_8_15=L", "b2_9_16=0", "b3_10_17=0x5A"], "014c305a00000000"),
+    ],
+)
+def test_a_message_goes_out_as_typed(
+    channel: str, far: can.BusABC, words: list[str], data: str, capsys: Capture
+) -> None:
+    assert send(channel, *words) == 0
+    frame = far.recv(1.0)
+    assert frame is not None
+    assert frame.data.hex() == data
+    out, errors = capsys.readouterr()
+    assert out.startswith(f"0x{frame.arbitration_id:08X}  [{frame.data.hex(' ').upper()}]  ")
+    assert (out.count("\n"), errors) == (1, "")
+    assert far.recv(0) is None
+
+
+def test_the_values_printed_are_those_that_went_out(
+    channel: str, far: can.BusABC, capsys: Capture
+) -> None:
+    assert send(channel, "B2V_ST2", "soc=80.1", "current=0.04") == 0
+    assert capsys.readouterr().out == (
+        "0x1882D0F3  [C8 FF 10 27 FF FF FF FF]  B2V_ST2  soc=80 %  soh=Signal Invalid"
+        "  current=0 A  max_lmt_chg_curr=Signal Invalid  max_lmt_dis_chg_curr=Signal Invalid\n"
+    )
+
+
+REFUSED = {
+    ("B2V_ST22",): "there is no message 'B2V_ST22'; did you mean B2V_ST2 or ",
+    ("Motor",): "there is no message 'Motor'; known are V2B_CMD, B2V_RQ, ",
+    ("B2V_ST2", "sok=1"): "B2V_ST2 has no field 'sok'; did you mean ",
+    ("B2V_ST2", "torque=1"): "B2V_ST2 has no field 'torque'; known are soc, soh, current, ",
+    ("B2V_ST2", "soc"): "expected FIELD=VALUE, not 'soc'",
+    ("B2V_ST2", "soc=80", "B2V_ST2_SOC=81"): "B2V_ST2.soc is given twice",
+    ("B2V_ST2", "soc=full"): "B2V_ST2.soc: expected a number, not 'full'",
+    ("B2V_ST2", "soc="): "B2V_ST2.soc: expected a number, not ''",
+    ("B2V_ST2", "soc=102.4"): "B2V_ST2.soc: 102.4 % is out of range; allowed are 0 to 102 %",
+    ("B2V_ST2", "soc=102"): "B2V_ST2.soc: 102 would be sent as raw 255, which means Signal Invalid",
+    ("B2V_ST2", "soc=nan"): "B2V_ST2.soc: nan is not a finite number; allowed are 0 to 102 %",
+    ("B2V_ST2", "soc=inf"): "B2V_ST2.soc: inf is not a finite number; allowed are 0 to 102 %",
+    ("B2V_ST2", "soc=-inf"): "B2V_ST2.soc: -inf is not a finite number; allowed are 0 to 102 %",
+    ("B2V_ST2", "soc=abnormal"): "B2V_ST2.soc: has no code for Abnormal",
+    ("B2V_ST1", "bms=open"): "B2V_ST1.bms: unknown label 'open'; known are HV open, Precharge, HV",
+    ("B2V_ST1", "bms=4"): "B2V_ST1.bms: code 4 is out of range; allowed are 0 to 3",
+    ("B2V_ST1", "aliv=3"): "B2V_ST1.aliv is filled in when sending",
+    ("B2V_ST1", "B2V_ST1_Checksum=3"): "B2V_ST1.checksum is filled in when sending",
+    ("B2V_BattInfo1", "batt_type=Reserved"): "'Reserved' is each of the codes 10, 11, 12, 13",
+    ("B2V_ST4", "max_temp_position=1.5"): "expected a whole number, not '1.5'",
+    ("B2V_ST4", "max_temp_position=256"): "256 is out of range; allowed are 0 to 255",
+    ("V2B_VIN", "b1_8_15=LL"): "V2B_VIN.b1_8_15: expected a character, not 'LL'",
+    ("V2B_VIN", "b1_8_15=?"): "V2B_VIN.b1_8_15: '?' is none of the characters 0123456789ABC",
+}
+
+
+@pytest.mark.parametrize(("words", "text"), REFUSED.items(), ids=" ".join)
+def test_what_cannot_be_sent_is_one_line_and_no_bus_is_opened(
+    channel: str,
+    words: tuple[str, ...],
+    text: str,
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def never(*arguments: object, **options: object) -> None:
+        raise AssertionError("a bus was opened")
+
+    monkeypatch.setattr(can, "Bus", never)
+    assert send(channel, *words) == 2
+    out, errors = capsys.readouterr()
+    assert out == ""
+    assert errors.startswith("swapcan: ")
+    assert text in errors
+    assert errors.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        (["-i", "nothing"], "argument -i/--interface: invalid choice: 'nothing' (choose from "),
+        (["-i", "virtual", "-b", "fast"], "argument -b/--bitrate: invalid int value: 'fast'"),
+        (["-i", "virtual", "--bus-kwargs", "fd"], "expected NAME=VALUE, not 'fd'"),
+        (["-i", "virtual", "--bus-kwargs", "port=x"], "cannot open the bus: Port config must be"),
+        (["-i", "udp_multicast", "-c", "10.0.0.1"], "cannot open the bus: "),
+        (["-i", "neovi", "-c", "0"], "cannot open the bus: "),
+        (["-i", "kvaser", "-c", "0"], "cannot open the bus: "),
+        (["-i", "socketcand"], "cannot open the bus: "),
+    ],
+)
+def test_a_bus_that_cannot_be_opened_is_one_line(
+    options: list[str], text: str, capsys: Capture
+) -> None:
+    assert cli.run(["send", "B2V_ST2", *options]) == 2
+    out, errors = capsys.readouterr()
+    assert out == ""
+    assert errors.startswith("swapcan: ")
+    assert text in errors
+    assert errors.count("\n") == 1
+
+
+def test_without_an_interface_the_configuration_of_python_can_is_used(
+    channel: str, far: can.BusABC, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setattr(can, "rc", {"interface": "virtual", "channel": channel})
+    assert cli.run(["send", "B2V_ST2", "soc=80"]) == 0
+    assert far.recv(1.0) is not None
+
+
+def test_an_interface_that_nobody_names_is_asked_for(
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(can.util, "load_file_config", lambda *_: {})
+    monkeypatch.delenv("CAN_INTERFACE", raising=False)
+    assert cli.run(["send", "B2V_ST2"]) == 2
+    assert capsys.readouterr().err.endswith("; --interface names one\n")
