@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 import os
 import re
@@ -12,9 +13,11 @@ from pathlib import Path
 from dbcspec.config import Config
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.json_schema import emit_json_schemas
+from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.errors import ReadError
 from dbcspec.model import Protocol
+from dbcspec.naming import package_name
 from dbcspec.rows import DOCUMENTS
 
 _DIFF_LINES = 8
@@ -49,6 +52,18 @@ def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
         made[f"{config.stubs}/{config.name}.dbc"] = main
     for name, text in emit_json_schemas(DOCUMENTS).items():
         made[f"{config.spec}/schema/{name}"] = text.encode("utf-8")
+    return made
+
+
+def foreign_artifacts(protocol: Protocol, name: str, runtime: str) -> dict[str, bytes]:
+    """What is generated of a protocol that is not the project's: DBC, matrix and stubs."""
+    named = dataclasses.replace(protocol, name=name)
+    made = {
+        f"{name}.dbc": emit_dbc(named).encode("utf-8"),
+        f"{name}.xlsx": emit_matrix(named),
+    }
+    for module, text in emit_stubs(named, runtime, ".").items():
+        made[f"{package_name(name)}/{module}"] = text.encode("utf-8")
     return made
 
 

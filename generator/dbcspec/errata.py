@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from dbcspec.errors import Fault, SpecError
-from dbcspec.rows import ChangeRow, ErratumRow, SignalRow, Spec
+from dbcspec.rows import ChangeRow, ErratumRow, SameCodes, SignalRow, Spec
 from dbcspec.schema import Record, expect_table, keys_of
 from dbcspec.source import Items
 
@@ -34,6 +34,9 @@ def apply_errata(spec: Spec) -> tuple[Spec, tuple[Fault, ...]]:
         if erratum.id in seen:
             faults.append(Fault(erratum.where_is("id"), f"erratum {erratum.id} stands here twice"))
         seen.add(erratum.id)
+        if not all(change.at for change in erratum.change) or not erratum.change:
+            text = f"erratum {erratum.id}: names nothing to change"
+            faults.append(Fault(erratum.where_is("change"), text))
         for change in erratum.change:
             for path in change.at:
                 try:
@@ -108,10 +111,15 @@ def _set(value: Any, erratum: str, change: ChangeRow) -> Record:
     keys = keys_of(type(record))
     values: dict[str, Any] = {}
     places = dict(record.places)
-    for name, node in expect_table(change.set).entries:
+    entries = expect_table(change.set).entries
+    if not entries:
+        raise _RefusedError("set gives no key: nothing changes")
+    for name, node in entries:
         if name.text not in keys:
             raise _RefusedError(f"unknown key {name.text!r}")
         new = keys[name.text].kind.read(node)
+        if isinstance(new, SameCodes):
+            raise _RefusedError("same_as is for tables: give the codes")
         if new == getattr(record, name.text):
             raise _RefusedError(f"{name.text} is {node_text(new)} already: nothing changes")
         values[name.text] = new
@@ -125,13 +133,16 @@ def _add(value: Any, erratum: str, change: ChangeRow) -> Record:
     keys = keys_of(type(record))
     values: dict[str, Any] = {}
     marked = False
-    for name, node in expect_table(change.add).entries:
+    entries = expect_table(change.add).entries
+    if not entries:
+        raise _RefusedError("add gives no list: nothing changes")
+    for name, node in entries:
         if name.text not in keys or not isinstance(getattr(record, name.text), tuple):
             raise _RefusedError(f"{name.text!r} is not a list")
         items = node.nodes if isinstance(node, Items) else (node,)
         new = keys[name.text].kind.read(Items(node.where, items))
         present = getattr(record, name.text)
-        if any(item in present for item in new):
+        if not new or any(item in present for item in new):
             raise _RefusedError(f"{name.text} has that already: nothing changes")
         marked = marked or any(not isinstance(item, Record) for item in new)
         values[name.text] = present + tuple(
@@ -151,6 +162,8 @@ def _keep(value: Any, erratum: str, change: ChangeRow) -> Record:
 def _relabel(value: Any, erratum: str, labels: Mapping[str, str]) -> Any:
     """Spell labels differently in every code cell at or below the path."""
     found: set[str] = set()
+    if same := [label for label, new in labels.items() if label == new]:
+        raise _RefusedError(f"{same[0]!r} is that already: nothing changes")
 
     def walk(part: Any) -> Any:
         if isinstance(part, tuple):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from decimal import Decimal
 
 from dbcspec.model import ByteOrder, Signal
 
@@ -32,3 +33,18 @@ def whole_byte(signal: Signal) -> int | None:
     if len(taken) == 8 and taken[0] % 8 == 0 and taken[-1] == taken[0] + 7:
         return taken[0] // 8
     return None
+
+
+def largest_float(length: int) -> Decimal:
+    """The largest finite number of the IEEE 754 type with so many bits, of 64 for odd ones."""
+    fraction, exponent = {16: (10, 15), 32: (23, 127)}.get(length, (52, 1023))
+    return Decimal((2 << exponent) - (1 << (exponent - fraction)))
+
+
+def float_limits(length: int) -> tuple[Decimal, Decimal]:
+    """The smallest and largest finite number of that type, exactly.
+
+    A minus sign would round the smallest one to the digits of the decimal context.
+    """
+    largest = largest_float(length)
+    return largest.copy_negate(), largest

@@ -36,6 +36,11 @@ def snake_case(name: str) -> str:
     return f"{snake}_" if keyword.iskeyword(snake) else snake
 
 
+def package_name(name: str) -> str:
+    """A name that Python can import, from any text."""
+    return snake_case(re.sub(r"[^A-Za-z0-9_]+", "_", name))
+
+
 def shared_prefix(names: Sequence[str]) -> str:
     """The longest beginning, up to an underscore, that all names have and none consists of."""
     if len(names) < 2:
@@ -65,7 +70,7 @@ def member_names(labels: Sequence[tuple[int, str]]) -> dict[int, str]:
     names = list(members.values())
     for value, name in members.items():
         if names.count(name) > 1:
-            numbered = f"{name}_{value}"
+            numbered = f"{name}_{value}".replace("-", "MINUS_")
             # No label makes a name that ends in an underscore.
             members[value] = f"{numbered}_" if numbered in names else numbered
     return members

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from dbcspec.config import Config
 from dbcspec.errata import apply_errata
-from dbcspec.errors import Fault
+from dbcspec.errors import Fault, SpecError
 from dbcspec.lint.rule import Finding, Subject
-from dbcspec.lint.run import lint
+from dbcspec.lint.run import lint_with
 from dbcspec.model import Protocol
 from dbcspec.resolve import resolve
 from dbcspec.rows import Spec, read_spec
@@ -25,12 +25,25 @@ class Project:
 
     def findings(self) -> list[Finding]:
         """What the linter finds and no waiver accepts."""
-        subject = Subject(protocol=self.protocol, spec=self.spec, errata_faults=self.errata_faults)
-        return lint(subject, self.config.waivers)
+        return lint_with(self.subject(), self.config.lint)
+
+    def subject(self) -> Subject:
+        """What the linter looks at."""
+        return Subject(
+            protocol=self.protocol,
+            spec=self.spec,
+            errata_faults=self.errata_faults,
+            source=self.config.spec,
+        )
 
 
 def load(config: Config) -> Project:
     """Read, correct and resolve; raises `SpecError` with every fault that prevents it."""
     printed = read_spec(config.root / config.spec, config.spec)
     spec, errata_faults = apply_errata(printed)
-    return Project(config, spec, resolve(spec, config.name), errata_faults)
+    try:
+        protocol = resolve(spec, config.name)
+    except SpecError as error:
+        # An erratum that failed is often why something is missing: show both.
+        raise SpecError([*error.faults, *errata_faults]) from None
+    return Project(config, spec, protocol, errata_faults)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from typing import TypeVar
 
 from dbcspec import model
 from dbcspec.errors import Fault, SpecError
-from dbcspec.layout import whole_byte
+from dbcspec.layout import float_limits, whole_byte
 from dbcspec.naming import field_name, shared_prefix
 from dbcspec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
 from dbcspec.schema import Record
@@ -45,7 +45,7 @@ class _Resolver:
         }
         self._rows: dict[str, list[tuple[SignalTable, SignalRow]]] = {}
         for table, row in spec.rows():
-            self._rows.setdefault(row.name, []).append((table, row))
+            self._rows.setdefault(row.signal, []).append((table, row))
         self._value_tables = ValueTables(spec, self.faults)
         self._conditions = {
             message: timing.condition
@@ -125,9 +125,9 @@ class _Resolver:
         signals = tuple(
             self._signal(row, field, prefixes, filled_in=field.name in counters | checksums)
             for field in fields
-            if field.name in self._rows
+            if self._rows_of(row, field)
         )
-        explained = [entry for field in fields for entry in self._rows.get(field.name, ())[:1]]
+        explained = [entry for field in fields for entry in self._rows_of(row, field)[:1]]
         routes = [signal_row.route for _, signal_row in explained if signal_row.route]
         tables = {id(table): table for table, _ in explained}.values()
         period = self._given(row, "period", row.period, 0)
@@ -136,9 +136,9 @@ class _Resolver:
             title=" + ".join(table.title for table in tables),
             english=row.english,
             frame_id=row.id,
-            extended=(self._spec.standard.frame_format or "ExtendedCAN") != "StandardCAN",
+            extended=self._is_extended(row),
             length=self._given(row, "length", row.length, 8),
-            sender=self._node(routes[0][0]) if routes else "",
+            sender=self._node(row.sender or (routes[0][0] if routes else "")),
             period=period or None,
             send_type=_SEND_TYPES[self._given(row, "type", row.type, "Event")],
             condition=self._conditions.get(row.name, ""),
@@ -150,15 +150,30 @@ class _Resolver:
             where=row.where,
         )
 
+    def _is_extended(self, row: MessageRow) -> bool:
+        if row.extended:
+            return row.extended == "yes"
+        return (self._spec.standard.frame_format or "ExtendedCAN") != "StandardCAN"
+
+    def _rows_of(
+        self, message: MessageRow, field: FieldRow
+    ) -> Sequence[tuple[SignalTable, SignalRow]]:
+        """The rows that explain a field: those for its message, else those for any."""
+        own = self._rows.get(f"{message.name}.{field.name}")
+        return own or self._rows.get(field.name, ())
+
     def _node(self, printed: str) -> str:
         return self._aliases.get(printed, printed)
 
     def _signal(
         self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], *, filled_in: bool
     ) -> model.Signal:
-        rows = self._rows[field.name]
+        rows = self._rows_of(message, field)
         row = rows[0][1]
-        low, high = self._given(row, "range", row.range, (Decimal(0), Decimal(1)))
+        length = self._given(field, "length", field.length, 1)
+        is_float = field.type == "float"
+        any_float = float_limits(length) if is_float else None
+        low, high = self._given(row, "range", row.range or any_float, (Decimal(0), Decimal(1)))
         receivers = self._given(row, "route", row.route, ("", ()))[1]
         factor = self._given(row, "factor", row.factor, Decimal(1))
         if not factor:
@@ -176,8 +191,12 @@ class _Resolver:
             title=row.title,
             english=row.english,
             start=self._given(field, "start", field.start, 0),
-            length=self._given(field, "length", field.length, 1),
-            byte_order=model.ByteOrder(message.byte_order or self._spec.messages.byte_order),
+            length=length,
+            byte_order=model.ByteOrder(
+                field.byte_order or message.byte_order or self._spec.messages.byte_order
+            ),
+            signed=field.type != "unsigned",
+            is_float=is_float,
             factor=factor,
             offset=self._given(row, "offset", row.offset, Decimal(0)),
             minimum=low,
@@ -186,8 +205,11 @@ class _Resolver:
             value_table=value_table,
             invalid_code=invalid,
             abnormal_code=_code_labelled(row.labels, standard.abnormal_labels),
-            start_value=0 if invalid is None or filled_in else invalid,
+            start_value=_initial(field, 0 if invalid is None or filled_in else invalid),
             receivers=tuple(map(self._node, receivers)),
+            is_selector=field.selector == "yes",
+            multiplexer=field.multiplexer,
+            selectors=field.selectors,
             python_name=field.field or field_name(field.name, prefixes),
             reference=", ".join(_row_reference(*entry) for entry in rows),
             errata=tuple(sorted(marks)),
@@ -264,6 +286,10 @@ class _Resolver:
                     if name and name not in known:
                         text = f"{key}: there is no {name!r}"
                         self.faults.append(Fault(row.where_is(key), text))
+
+
+def _initial(field: FieldRow, usual: int) -> int:
+    return usual if field.initial is None else field.initial
 
 
 def _joined(title: str, part: str) -> str:

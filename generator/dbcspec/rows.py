@@ -19,6 +19,7 @@ from dbcspec.schema import (
     NAME,
     RANGE,
     ROUTE,
+    SIGNAL,
     TEXT,
     Kind,
     Record,
@@ -31,6 +32,7 @@ from dbcspec.schema import (
     nested,
     one_of,
     raw,
+    whole_number,
 )
 from dbcspec.source import Node, read_yaml
 
@@ -53,6 +55,9 @@ def _read_codes(node: Node) -> Mapping[int, str] | SameCodes:
     return codes
 
 
+BYTES = whole_number(0, 64)
+BITS = whole_number(1, 8 * 64)
+START = whole_number(0, 8 * 64 - 1)
 CODES = Kind("codes and their labels", _read_codes, _CODES.schema)
 LIST_OF_TEXT = list_of(TEXT)
 
@@ -103,7 +108,7 @@ class Standard(Record):
     invalid_labels: tuple[str, ...] = key(LIST_OF_TEXT, "labels of an invalid signal", default=())
     abnormal_labels: tuple[str, ...] = key(LIST_OF_TEXT, "labels of an abnormal value", default=())
     value_tables: Mapping[str, str] = key(
-        map_of(NAME, NAME), "value table name: a signal that has these codes", default={}
+        map_of(NAME, SIGNAL), "value table name: a signal that has these codes", default={}
     )
 
 
@@ -112,9 +117,15 @@ class FieldRow(Record):
     """A signal's place in its frame: a row of the annex."""
 
     name: str = key(NAME, "signal name", required=True)
-    length: int | None = key(INTEGER, "bits")
-    start: int | None = key(INTEGER, "start bit as printed, counted from bit 0")
+    length: int | None = key(BITS, "bits")
+    start: int | None = key(START, "start bit as printed, counted from bit 0")
     field: str = key(NAME, "name in generated code, where the derived one is poor", default="")
+    byte_order: str = key(one_of("Intel", "Motorola"), "where it differs from its message's")
+    type: str = key(one_of("unsigned", "signed", "float"), "raw value", default="unsigned")
+    initial: int | None = key(INTEGER, "raw value at first, where not the invalid code or 0")
+    selector: str = key(one_of("yes", "no"), "whether it selects other signals", default="no")
+    multiplexer: str = key(NAME, "the signal that selects this one", default="")
+    selectors: tuple[int, ...] = key(list_of(INTEGER), "its values that do", default=())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,10 +137,12 @@ class MessageRow(Record):
     id: int = key(INTEGER, "29-bit or 11-bit identifier", required=True)
     name: str = key(NAME, "message name", required=True)
     english: str = key(TEXT, "what it carries, in English", default="")
-    length: int | None = key(INTEGER, "bytes")
+    length: int | None = key(BYTES, "bytes")
     type: str = key(one_of("Cyclic", "IfActive", "Event"), "how it is sent")
     period: int | None = key(INTEGER, "ms; 0 where it is sent on an event only")
     byte_order: str = key(one_of("Intel", "Motorola"), "where it differs from the document's")
+    extended: str = key(one_of("yes", "no"), "29-bit identifier, where frame_format says otherwise")
+    sender: str = key(NAME, "who sends it, where no signal table says so", default="")
     prefixes: tuple[str, ...] = key(
         LIST_OF_TEXT, "what field names in generated code leave off", default=()
     )
@@ -155,9 +168,10 @@ class SignalRow(Record):
 
     no: int = key(INTEGER, "printed row number", required=True)
     name: str = key(NAME, "signal name", default="")
+    message: str = key(NAME, "its message, where several have the name, each its own", default="")
     title: str = key(TEXT, "printed title", default="")
     english: str = key(TEXT, "short English title", default="")
-    length: int | None = key(INTEGER, "bits")
+    length: int | None = key(BITS, "bits")
     codes: Mapping[int, str] | SameCodes = key(CODES, "printed codes: labels", default={})
     english_codes: Mapping[int, str] = key(_CODES, "English for labels that need it", default={})
     factor: Decimal | None = key(DECIMAL, "physical value of one raw step")
@@ -165,6 +179,11 @@ class SignalRow(Record):
     unit: str | None = key(TEXT, "printed unit")
     range: tuple[Decimal, Decimal] | None = key(RANGE, "printed physical range")
     route: tuple[str, tuple[str, ...]] | None = key(ROUTE, "sender>receiver,receiver")
+
+    @property
+    def signal(self) -> str:
+        """The signal that it explains: ``name``, or ``message.name`` where a message is given."""
+        return f"{self.message}.{self.name}" if self.message else self.name
 
     @property
     def labels(self) -> Mapping[int, str]:
@@ -403,8 +422,9 @@ def _without_references(table: SignalTable, faults: list[Fault]) -> SignalTable:
         if not isinstance(row.codes, SameCodes):
             rows.append(row)
         elif same := printed.get(row.codes.row):
-            codes = {"codes": same.labels, "english_codes": same.english_codes}
-            rows.append(dataclasses.replace(row, **codes))
+            rows.append(
+                dataclasses.replace(row, codes=same.labels, english_codes=same.english_codes)
+            )
         else:
             text = f"same_as: no row {row.codes.row!r} with codes in this table"
             faults.append(Fault(row.where_is("codes"), text))

@@ -148,12 +148,15 @@ def _whole_number(text: str) -> int:
     return int(text, 0) if text[1:2] in ("x", "X") else int(text)
 
 
-_NUMBER = r"-?\d{1,12}(?:\.\d{1,12})?"
+_NUMBER = r"-?\d{1,20}(?:\.\d{1,40})?"
 
 TEXT = Kind("text", expect_text, {"type": ["string", "number", "boolean", "null"]})
-INTEGER = _pattern("a whole number", r"-?\d{1,12}|0[xX][0-9A-Fa-f]{1,8}", _whole_number)
+INTEGER = _pattern("a whole number", r"-?\d{1,20}|0[xX][0-9A-Fa-f]{1,8}", _whole_number)
 DECIMAL = _pattern("a plain decimal number", _NUMBER, Decimal)
 NAME = _pattern("a name (letters, digits, underscore)", r"[A-Za-z_][A-Za-z0-9_]*", str)
+SIGNAL = _pattern(
+    "a signal, or message.signal", r"[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)?", str
+)
 RANGE = _pattern(
     "a range such as 0~255",
     rf"{_NUMBER}~{_NUMBER}",
@@ -162,13 +165,29 @@ RANGE = _pattern(
 
 
 def _split_route(text: str) -> tuple[str, tuple[str, ...]]:
+    """Sender and receivers; ``-`` stands for nobody."""
     sender, receivers = text.split(">")
-    return sender, tuple(receivers.split(","))
+    return sender.strip("-"), tuple(name for name in receivers.split(",") if name != "-")
 
 
 ROUTE = _pattern(
-    "a route such as BMU>VCU", r"[A-Za-z0-9_]+>[A-Za-z0-9_]+(?:,[A-Za-z0-9_]+)*", _split_route
+    "a route such as BMU>VCU, with - for nobody",
+    r"(?:[A-Za-z0-9_]+|-)>(?:[A-Za-z0-9_]+(?:,[A-Za-z0-9_]+)*|-)",
+    _split_route,
 )
+
+
+def whole_number(low: int, high: int) -> Kind:
+    """A whole number from low to high."""
+
+    def read(node: Node) -> int:
+        value: int = INTEGER.read(node)
+        if not low <= value <= high:
+            raise SpecError.at(node.where, f"{value} is out of range; allowed are {low} to {high}")
+        return value
+
+    schema = {"type": "integer", "minimum": low, "maximum": high}
+    return Kind(f"a whole number from {low} to {high}", read, schema)
 
 
 def one_of(*words: str) -> Kind:

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 from dbcspec.errors import Fault, Location, SpecError
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_DEEPEST = 40
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,21 +65,48 @@ def compose(text: str, shown_as: str) -> Node:
     if faults:
         raise SpecError(faults)
     try:
-        root = yaml.compose(text, Loader=_LOADER)
+        faults.extend(_event_faults(text, shown_as))
+        root = None if faults else yaml.compose(text, Loader=_LOADER)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        where = Location(shown_as, mark.line + 1, mark.column + 1) if mark else Location(shown_as)
+        where = _place(mark, shown_as) if mark else Location(shown_as)
         raise SpecError.at(where, f"not YAML: {error.problem or error.context}") from None
     except yaml.reader.ReaderError as error:
         raise SpecError.at(Location(shown_as), f"not YAML: {error.reason}") from None
-    except RecursionError:
-        raise SpecError.at(Location(shown_as), "nested too deeply") from None
     if root is None:
-        raise SpecError.at(Location(shown_as), "the file is empty")
+        raise SpecError(faults or [Fault(Location(shown_as), "the file is empty")])
     node = _Converter(shown_as, faults).convert(root)
     if faults:
         raise SpecError(faults)
     return node
+
+
+def _event_faults(text: str, shown_as: str) -> Iterator[Fault]:
+    """What YAML allows and the spec does not, found before anything is built from it.
+
+    Composing nests as deeply as the text does, so text that is nested too deeply must not get
+    there.
+    """
+    depth = documents = 0
+    for event in yaml.parse(text, Loader=_LOADER):
+        where = _place(event.start_mark, shown_as)
+        depth += isinstance(event, yaml.CollectionStartEvent)
+        depth -= isinstance(event, yaml.CollectionEndEvent)
+        documents += isinstance(event, yaml.DocumentStartEvent)
+        if depth > _DEEPEST:
+            yield Fault(where, "nested too deeply")
+            return
+        if documents > 1:
+            yield Fault(where, "a second document begins: one file holds one")
+            return
+        if getattr(event, "anchor", None):
+            yield Fault(where, "YAML anchors and aliases are not used here")
+        if tag := getattr(event, "tag", None):
+            yield Fault(where, f"YAML tag {tag} is not used here")
+
+
+def _place(mark: Any, shown_as: str) -> Location:
+    return Location(shown_as, mark.line + 1, mark.column + 1)
 
 
 def _decode(path: Path, shown_as: str) -> str:
@@ -101,17 +130,9 @@ class _Converter:
     def __init__(self, shown_as: str, faults: list[Fault]) -> None:
         self._shown_as = shown_as
         self._faults = faults
-        self._seen: set[int] = set()
 
     def convert(self, node: yaml.Node) -> Node:
-        where = self._where(node)
-        # Aliases share one node: refusing the second visit also defuses anchor bombs.
-        if id(node) in self._seen:
-            self._faults.append(Fault(where, "YAML anchors and aliases are not used here"))
-            return Scalar(where, "")
-        self._seen.add(id(node))
-        if not node.tag.startswith("tag:yaml.org,2002:"):
-            self._faults.append(Fault(where, f"YAML tag {node.tag} is not used here"))
+        where = _place(node.start_mark, self._shown_as)
         if isinstance(node, yaml.MappingNode):
             return Table(where, tuple(self._entries(node)))
         if isinstance(node, yaml.SequenceNode):
@@ -130,7 +151,3 @@ class _Converter:
             else:
                 keys.add(key.text)
                 yield key, value
-
-    def _where(self, node: yaml.Node) -> Location:
-        mark = node.start_mark
-        return Location(self._shown_as, mark.line + 1, mark.column + 1)

@@ -17,7 +17,8 @@ class ValueTables:
 
     def __init__(self, spec: Spec, faults: list[Fault]) -> None:
         self._tables: dict[_Codes, ValueTable] = {}
-        rows = {row.name: row for _, row in reversed(list(spec.rows()))}
+        every = [row for _, row in reversed(list(spec.rows()))]
+        rows = {**{row.name: row for row in every}, **{row.signal: row for row in every}}
         for name, signal in spec.standard.value_tables.items():
             where = spec.standard.where_is("value_tables")
             codes = _codes(rows[signal]) if signal in rows else ()

@@ -9,71 +9,11 @@ import cantools
 import pytest
 from cantools.database.can import Database
 from emit.dbc_lines import Dbc
+from emit.other_protocol import HELLO, LONG_NAMES, OTHER, WHEELS
 
 from dbcspec.emit.dbc import emit_dbc, number
 from dbcspec.errors import Location
-from dbcspec.model import (
-    Bus,
-    ByteOrder,
-    Code,
-    Message,
-    Node,
-    Protocol,
-    SendType,
-    Signal,
-    ValueTable,
-)
-
-SPEED = Signal(
-    name="Wheel_Speed",
-    english="Wheel speed",
-    start=7,
-    length=12,
-    byte_order=ByteOrder.MOTOROLA,
-    signed=True,
-    factor=Decimal("0.0625"),
-    offset=Decimal("-2.50"),
-    minimum=Decimal("-1E+2"),
-    maximum=Decimal(100),
-    unit="m/s",
-    receivers=("ABS", "TCU"),
-)
-GEAR = Signal(
-    name="Gear",
-    english="Gear",
-    start=16,
-    length=3,
-    minimum=Decimal(0),
-    maximum=Decimal(7),
-    value_table=ValueTable("Gears", (Code(0, "N", "Neutral"), Code(7, "R", "Reverse"))),
-    start_value=7,
-)
-OTHER = Protocol(
-    name="other-car",
-    english="Another car",
-    title="Ein anderes Auto",
-    frame_format="StandardCAN",
-    nodes=(Node(name="ECU", english="Engine", address=1), Node(name="ABS"), Node(name="TCU")),
-    buses=(
-        Bus(name="body", bit_rate=125_000, nodes=("ECU",)),
-        Bus(name="chassis", bit_rate=500_000, nodes=("ECU", "ABS")),
-    ),
-    messages=(
-        Message(
-            name="Wheels",
-            english="Wheels",
-            frame_id=0x123,
-            extended=False,
-            length=4,
-            sender="ECU",
-            period=100_000,
-            send_type=SendType.CYCLIC,
-            signals=(SPEED, GEAR),
-        ),
-        Message(name="Hello", english="Hello", frame_id=0x7FF, extended=False, length=0, sender=""),
-    ),
-    value_tables=(ValueTable("Gears", (Code(0, "N", "Neutral"), Code(7, "R", "Reverse"))),),
-)
+from dbcspec.model import Bus, Protocol
 
 
 def rendered(protocol: Protocol = OTHER, bus: Bus | None = None) -> Dbc:
@@ -99,15 +39,15 @@ def test_a_number_is_a_plain_decimal_without_trailing_zeros(value: str, text: st
 def test_lines_have_the_allowed_shape_and_say_what_the_model_says() -> None:
     texts = [line.text for line in rendered().lines]
     assert "BU_: ECU ABS TCU" in texts
-    assert "BO_ 291 Wheels: 4 ECU" in texts
+    assert "BO_ 291 Wheels: 8 ECU" in texts
     assert ' SG_ Wheel_Speed : 7|12@0- (0.0625,-2.5) [-100|100] "m/s" ABS,TCU' in texts
-    assert ' SG_ Gear : 16|3@1+ (1,0) [0|7] "" Vector__XXX' in texts
-    assert "BO_ 2047 Hello: 0 Vector__XXX" in texts
+    assert ' SG_ Gear : 16|3@1+ (1,0) [0|5] "" Vector__XXX' in texts
+    assert "BO_ 2047 Hello: 2 ABS" in texts
     assert 'VAL_ 291 Gear 0 "Neutral" 7 "Reverse" ;' in texts
 
 
 def test_an_11_bit_frame_says_so_in_its_frame_format() -> None:
-    assert rendered().values("VFrameFormat") == {"291": "0", "2047": "0"}
+    assert rendered().values("VFrameFormat") == {"291": "0", "2046": "0", "2047": "0"}
 
 
 def test_a_long_period_fits_the_definition_of_the_attribute() -> None:
@@ -130,7 +70,7 @@ def test_the_file_of_a_bus_leaves_out_what_nobody_on_it_hears() -> None:
     assert (quiet.nodes, quiet.of("BO_"), quiet.of("VAL_TABLE_")) == (["ECU"], [], [])
     heard = rendered(bus=chassis)
     assert [parts["name"] for parts in heard.of("BO_")] == ["Wheels"]
-    assert [signal.receivers for signal in heard.signals] == [("ABS",), ("Vector__XXX",)]
+    assert [signal.receivers for signal in heard.signals[:2]] == [("ABS",), ("Vector__XXX",)]
 
 
 def test_a_node_without_an_address_gets_none() -> None:
@@ -142,16 +82,22 @@ def test_another_reader_finds_the_values_of_the_model() -> None:
     assert isinstance(dbc, Database)
     wheels = dbc.get_message_by_frame_id(0x123)
     assert not wheels.is_extended_frame
-    # 0xFFF in bits 7 to 0 of byte 0 and 7 to 4 of byte 1 is -1: -1 * 0.0625 - 2.5 = -2.5625.
-    assert wheels.decode_simple(bytes((0xFF, 0xF0, 0x07, 0))) == {
-        "Wheel_Speed": -2.5625,
+    # FFF in byte 0 and the upper half of byte 1 is -1: -1 x 0.0625 - 2.5 = -2.5625.
+    # EA60 is 60000, low byte first.
+    decoded = wheels.decode_simple(bytes.fromhex("FF F0 07 60 EA 5A 02 09"))
+    assert {name: str(value) for name, value in decoded.items()} == {
+        "Wheel_Speed": "-2.5625",
         "Gear": "Reverse",
+        "Text": "Very many",
+        "Letter": "Z",
+        "Slot": "Slot2",
+        "Count": "9",
     }
 
 
 def test_the_digest_changes_with_the_model_but_not_with_a_place_in_the_spec() -> None:
-    wheels, hello = OTHER.messages
-    moved = dataclasses.replace(wheels, where=Location("messages.yaml", 99))
-    faster = dataclasses.replace(wheels, period=99)
-    assert dataclasses.replace(OTHER, messages=(moved, hello)).digest == OTHER.digest
-    assert dataclasses.replace(OTHER, messages=(faster, hello)).digest != OTHER.digest
+    moved = dataclasses.replace(WHEELS, where=Location("messages.yaml", 99))
+    faster = dataclasses.replace(WHEELS, period=99)
+    others = (LONG_NAMES, HELLO)
+    assert dataclasses.replace(OTHER, messages=(moved, *others)).digest == OTHER.digest
+    assert dataclasses.replace(OTHER, messages=(faster, *others)).digest != OTHER.digest

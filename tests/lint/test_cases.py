@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import pkgutil
 import re
 from importlib import import_module
@@ -11,21 +12,38 @@ import pytest
 
 import dbcspec.lint
 from dbcspec.config import Config, find_config
+from dbcspec.fix import raw_text
+from dbcspec.lint.options import ALL, Options
 from dbcspec.lint.registry import ALL_RULES, RULES
-from dbcspec.lint.rule import Rule
+from dbcspec.lint.rule import Rule, Subject
+from dbcspec.lint.run import lint_with
 from dbcspec.project import load
+from dbcspec.read.dbc import read_dbc
 
 CASES = Path(__file__).with_name("cases")
 
 over_all_rules = pytest.mark.parametrize("rule", ALL_RULES, ids=lambda rule: rule.id)
 
 
+def subject(folder: Path) -> Subject:
+    """A case as the linter sees it: a DBC file where there is one, else a spec."""
+    dbc = folder / "case.dbc"
+    if dbc.is_file():
+        name = f"{folder.name}/case.dbc"
+        text = raw_text(dbc.read_bytes(), "utf-8")
+        return Subject(protocol=read_dbc(dbc, shown_as=name), dbc_text=text, source=name)
+    project = load(Config(root=folder.parent, name="case", spec=folder.name))
+    return Subject(
+        protocol=project.protocol, spec=project.spec, errata_faults=project.errata_faults
+    )
+
+
 def lines(rule: Rule, folder: Path) -> list[str]:
-    """The findings of one rule in a case, waivers taken into account where it has any."""
-    has_waivers = (folder / "pyproject.toml").is_file()
-    waivers = find_config(folder).waivers if has_waivers else ()
-    config = Config(root=folder.parent, name="case", spec=folder.name, waivers=waivers)
-    return [str(each) for each in load(config).findings() if each.rule == rule.id]
+    """The findings of one rule in a case, under the configuration of the case if it has one."""
+    configured = (folder / "pyproject.toml").is_file()
+    options = find_config(folder).lint if configured else Options()
+    findings = lint_with(subject(folder), dataclasses.replace(options, select=(ALL,)))
+    return [str(each) for each in findings if each.rule == rule.id]
 
 
 @over_all_rules

@@ -2,29 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from decimal import Decimal
 from typing import Any
 
-from dbcspec.lint.rule import Subject
+import pytest
+
+from dbcspec.lint.items import rule_infos, to_items
+from dbcspec.lint.pgn_unique import RULE as PGN_UNIQUE
+from dbcspec.lint.registry import ALL_RULES
+from dbcspec.lint.rule import Finding, Settings, Subject
 from dbcspec.lint.run import lint
-from dbcspec.model import Code, Message, Node, Protocol, Signal, ValueTable
+from dbcspec.lint.units import is_known
+from dbcspec.model import Aspect, Bus, Code, Message, Node, Protocol, Signal, ValueTable
 
 
 def signal(name: str = "SPEED", **values: Any) -> Signal:
     defaults = {"start": 0, "length": 8, "minimum": Decimal(0), "maximum": Decimal(255)}
-    return Signal(name=name, **{**defaults, **values})
+    return Signal(name=name, english="What it means", **{**defaults, **values})
 
 
 def message(name: str = "STATE", **values: Any) -> Message:
     defaults = {"frame_id": 0x100, "length": 8, "sender": "ECU", "signals": (signal(),)}
-    return Message(name=name, **{**defaults, **values})
+    return Message(name=name, english="What it carries", **{**defaults, **values})
+
+
+def found(messages: Sequence[Message], settings: Settings, **values: Any) -> list[Finding]:
+    defaults = {"name": "test", "nodes": (Node(name="ECU"),), "messages": tuple(messages)}
+    return lint(Subject(protocol=Protocol(**{**defaults, **values}), settings=settings))
 
 
 def findings(*messages: Message, **values: Any) -> list[str]:
     """Rule and text of every finding."""
-    defaults = {"name": "test", "nodes": (Node(name="ECU"),), "messages": messages}
-    subject = Subject(protocol=Protocol(**{**defaults, **values}))
-    return [f"{each.rule}: {each.text}" for each in lint(subject)]
+    return [f"{each.rule}: {each.text}" for each in found(messages, Settings(), **values)]
+
+
+def rules(*messages: Message, settings: Settings | None = None, **values: Any) -> list[str]:
+    """The rules of all findings."""
+    return [each.rule for each in found(messages, settings or Settings(), **values)]
 
 
 def test_a_sound_model_has_no_findings() -> None:
@@ -56,6 +71,14 @@ def test_two_messages_of_a_model_may_have_signals_of_one_name() -> None:
     ]
 
 
+def test_value_tables_are_held_against_messages_only_where_both_become_classes() -> None:
+    table = ValueTable("STATE", (Code(0, "Off", "Off"), Code(1, "On", "On")))
+    values: dict[str, Any] = {"value_tables": (table,)}
+    assert rules(message(), **values) == ["name-unique"]
+    carries = frozenset({Aspect.VALUE_TABLE_NAMES})
+    assert rules(message(), carries=carries, **values) == []
+
+
 def test_a_signed_signal_has_no_room_for_codes_above_its_half() -> None:
     table = ValueTable("Limit", (Code(127, "High", "High"), Code(128, "Error", "Error")))
     speed = signal(signed=True, minimum=Decimal(-128), maximum=Decimal(127), value_table=table)
@@ -67,6 +90,12 @@ def test_a_signed_signal_has_no_room_for_codes_above_its_half() -> None:
     ]
 
 
+def test_codes_of_a_signal_that_fills_the_frame_are_no_enumeration() -> None:
+    table = ValueTable("Limit", (Code(0, "None", "None"), Code(2**64 - 1, "All", "All")))
+    wide = signal(length=64, maximum=Decimal(2**64 - 1), value_table=table)
+    assert findings(message(signals=(wide,)), value_tables=(table,)) == []
+
+
 def test_a_factor_of_0_is_a_range_that_does_not_fit() -> None:
     table = ValueTable("OnOff", (Code(0, "Off", "Off"), Code(1, "On", "On")))
     flat = signal(length=2, factor=Decimal(0), value_table=table)
@@ -76,6 +105,14 @@ def test_a_factor_of_0_is_a_range_that_does_not_fit() -> None:
             "range, factor or offset"
         )
     ]
+
+
+def test_the_bits_of_a_float_are_no_whole_numbers() -> None:
+    table = ValueTable("Limit", (Code(2**40, "High", "High"),))
+    real = signal(
+        length=32, is_float=True, maximum=Decimal(10) ** 30, start_value=-5, value_table=table
+    )
+    assert findings(message(signals=(real,)), value_tables=(table,)) == []
 
 
 def test_a_signal_of_absurd_length_is_one_finding() -> None:
@@ -103,7 +140,140 @@ def test_senders_and_receivers_are_nodes_of_the_model() -> None:
 
 def test_texts_of_a_model_are_held_against_the_rules_of_dbc_files() -> None:
     assert findings(message(reference="§ 5", title="say; it", condition="if €")) == [
-        "text-fits-dbc: condition of STATE is not ASCII: give an English form",
-        "text-fits-dbc: reference of STATE is not ASCII: give an English form",
         "text-fits-dbc: title of STATE contains a semicolon: take it out",
+        "text-gbk: condition of STATE has '€', which GB2312 lacks: use another character",
+    ]
+
+
+def test_a_comment_that_is_title_and_english_is_one_finding() -> None:
+    same = message(title="What it carries", signals=(signal(title="What it means"),))
+    assert findings(same) == []
+    odd = Message(
+        name="STATE", frame_id=1, length=8, sender="ECU", title="a;b", english="a;b"
+    )  # as a file has one comment
+    assert rules(odd) == ["text-fits-dbc"]
+
+
+def test_a_file_without_any_comment_is_one_finding() -> None:
+    bare = Message(
+        name="STATE",
+        frame_id=1,
+        length=8,
+        sender="ECU",
+        signals=(Signal(name="SPEED", start=0, length=8, minimum=Decimal(0), maximum=Decimal(9)),),
+    )
+    assert rules(bare) == ["comment-given"]
+
+
+def selector(name: str = "MODE", **values: Any) -> Signal:
+    defaults = {"start": 0, "length": 4, "maximum": Decimal(15), "is_selector": True}
+    return signal(name, **{**defaults, **values})
+
+
+def branch(name: str, *selectors: int, **values: Any) -> Signal:
+    defaults = {"start": 8, "multiplexer": "MODE", "selectors": selectors}
+    return signal(name, **{**defaults, **values})
+
+
+def test_branches_under_different_selectors_share_bits() -> None:
+    apart = (selector(), branch("SPEED", 1, 3), branch("HEAT", 2))
+    assert findings(message(signals=apart)) == []
+
+
+def test_branches_with_one_common_selector_share_none() -> None:
+    common = (selector(), branch("SPEED", 1, 3), branch("HEAT", 2, 3))
+    assert findings(message(signals=common)) == [
+        (
+            "branches-overlap: HEAT overlaps SPEED at bit 8 of STATE while MODE is 3: correct a "
+            "start bit, a length or a selector"
+        )
+    ]
+
+
+def test_a_branch_shares_no_bit_with_its_selector_or_a_signal_that_is_always_there() -> None:
+    onto_selector = (selector(), branch("SPEED", 1, start=0))
+    assert rules(message(signals=onto_selector)) == ["signals-overlap"]
+    onto_static = (selector(), signal("HEAT", start=8), branch("SPEED", 1))
+    assert rules(message(signals=onto_static)) == ["signals-overlap"]
+
+
+def test_a_branch_of_a_branch_is_apart_from_the_other_branches_of_the_first() -> None:
+    inner = selector("PAGE", start=16, multiplexer="MODE", selectors=(1,))
+    below = branch("SPEED", 0, multiplexer="PAGE")
+    assert rules(message(signals=(selector(), inner, below, branch("HEAT", 2)))) == []
+    together = message(signals=(selector(), inner, below, branch("HEAT", 1)))
+    assert rules(together) == ["signals-overlap"]
+
+
+def test_multiplexers_that_select_each_other_do_not_hang() -> None:
+    one = selector("MODE", multiplexer="PAGE", selectors=(0,))
+    other = selector("PAGE", start=4, multiplexer="MODE", selectors=(0,))
+    assert rules(message(signals=(one, other))) == []
+
+
+def body(bit_rate: int) -> Bus:
+    return Bus(name="body", bit_rate=bit_rate, nodes=("ECU",))
+
+
+def test_the_longest_frame_with_all_stuff_bits_is_what_a_bus_carries() -> None:
+    # Davis et al. 2007: 135 bits for 8 bytes with 11 bits of identifier, 160 with 29.
+    exact = Settings(bus_load=100)
+    for extended, bits in ((False, 135), (True, 160)):
+        every_second = message(period=1000, extended=extended)
+        assert rules(every_second, settings=exact, buses=(body(bits),)) == []
+        assert rules(every_second, settings=exact, buses=(body(bits - 1),)) == ["bus-load"]
+
+
+def test_only_periodic_messages_of_nodes_on_the_bus_load_it() -> None:
+    event = message()
+    elsewhere = message("LIMITS", frame_id=0x101, sender="HMI", period=1)
+    longer_than_classic = message("BULK", frame_id=0x102, length=64, period=1)
+    nodes = (Node(name="ECU"), Node(name="HMI"))
+    messages = (event, elsewhere, longer_than_classic)
+    assert rules(*messages, nodes=nodes, buses=(body(1000),)) == []
+
+
+def test_j1939_rules_do_not_speak_of_other_29_bit_identifiers() -> None:
+    shared = (message(frame_id=0x18FF0001), message("LIMITS", frame_id=0x18FF0002))
+    none, null = (Node(name="ECU"),), (Node(name="ECU", address=254),)
+    for nodes, frame_format, expected in (
+        (none, "ExtendedCAN", []),
+        (null, "ExtendedCAN", []),
+        (none, "J1939PG", ["LIMITS"]),
+        ((Node(name="ECU", address=1),), "ExtendedCAN", ["LIMITS"]),
+    ):
+        protocol = Protocol(name="x", messages=shared, nodes=nodes, frame_format=frame_format)
+        found = PGN_UNIQUE.findings(Subject(protocol=protocol))
+        assert [each.subject for each in found] == expected
+
+
+@pytest.mark.parametrize(
+    "unit",
+    ["km/h", "mOhm", "µA", "m/s²", "m/s^2", "N*m", "N.m", "1/min", "kWh/100km", "degC/s", "%", "1"],
+)
+def test_a_known_unit_may_have_prefixes_exponents_and_parts(unit: str) -> None:
+    assert is_known(unit)
+
+
+@pytest.mark.parametrize("unit", ["Kwh", "apples", "apples/s", "s/apples", "mmm", "^2", "/"])
+def test_what_is_put_together_of_anything_else_is_unknown(unit: str) -> None:
+    assert not is_known(unit)
+    assert rules(message(signals=(signal(unit=unit),))) == ["unit-known"]
+
+
+def test_findings_become_items_in_the_group_of_their_message() -> None:
+    twice = (message(signals=(signal(unit="apples"),)), message("LIMITS", frame_id=0x101))
+    items = to_items(found(twice, Settings(), nodes=(Node(name="A"),)))
+    assert {(item.rule, item.group, item.subject) for item in items} == {
+        ("unit-known", "STATE", "SPEED"),
+        ("node-declared", "STATE", "ECU"),
+        ("node-declared", "LIMITS", "ECU"),
+        ("name-is-identifier", "", "A"),
+    }
+    assert {item.level for item in items} == {"error"}
+
+
+def test_reports_know_every_rule() -> None:
+    assert [(info.id, info.purpose) for info in rule_infos()] == [
+        (rule.id, rule.purpose) for rule in ALL_RULES
     ]

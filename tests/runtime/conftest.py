@@ -51,8 +51,12 @@ def far(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
 
 @pytest.fixture
 def environment() -> dict[str, str]:
-    """For processes: the package under test, and nothing that changes python-can."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith("CAN_")}
+    """For processes: the package under test, and nothing that changes it or python-can."""
+    kept = {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith("CAN_") and name != "PYTHONUNBUFFERED"
+    }
     paths = [str(SOURCE), *filter(None, [os.environ.get("PYTHONPATH")])]
     return kept | {"PYTHONPATH": os.pathsep.join(paths)}
 

@@ -161,6 +161,22 @@ def test_json_says_of_every_signal_what_cantools_says(
                 assert math.isclose(value, expected, abs_tol=1e-9)
 
 
+def test_a_value_in_json_has_no_digits_of_binary_arithmetic(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = write(tmp_path / "drive.csv", [logged(0, 0x1883D0F3, "0100 0200 0300 0700")])
+    (line,) = json_lines(log, capsys)  # 3 x 0.1 and 7 x 0.1 are not 0.3 and 0.7
+    assert list(line["signals"].values()) == [1.0, 2.0, 0.3, 0.7]
+
+
+def test_an_error_frame_is_unknown_and_has_no_identifier(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    frames = [logged(0, 0, "", is_error_frame=True), logged(1, 0x18FEF100, "00")]
+    assert run(["decode", str(write(tmp_path / "drive.asc", frames))]) == 0
+    assert "unknown 2 (identifiers 1)" in capsys.readouterr().err
+
+
 def test_counters_of_two_channels_do_not_mix(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -7,7 +7,6 @@ import random
 import sqlite3
 from pathlib import Path
 
-import can
 import pytest
 from runtime.frames import DRIVE, logged, write
 
@@ -130,12 +129,7 @@ def test_a_database_with_empty_rows_is_one_line(
 def test_a_log_without_frames_is_no_error(
     suffix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = tmp_path / f"drive.{suffix}"
-    if suffix == "trc":
-        with can.TRCWriter(path) as log:
-            log.write_header(0.0)
-    else:
-        write(path, [])
+    path = write(tmp_path / f"drive.{suffix}", [])
     assert run(["decode", str(path)]) == 0
     out, errors = capsys.readouterr()
     assert out == ""

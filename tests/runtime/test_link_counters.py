@@ -48,6 +48,7 @@ def test_a_life_counter_runs_0_to_255(
         ([5, 4, 5], ["", "counter goes from 5 to 4, expected 6", ""]),
         ([14, 1], ["", "counter goes from 14 to 1, expected 0"]),
         ([14, 15, 0], ["", "counter is Signal Invalid, it runs 0 to 14", ""]),
+        ([5, 15, 9, 10], ["", "counter is Signal Invalid, it runs 0 to 14", "", ""]),
         ([15, 15], ["counter is Signal Invalid, it runs 0 to 14"] * 2),
     ],
 )

@@ -68,26 +68,34 @@ def test_faults_are_reported_in_the_event_loop(near: can.BusABC, far: can.BusABC
     assert link.counts.foreign == 1
 
 
-def test_a_frame_that_arrives_while_listening_is_cancelled_is_not_lost(
-    near: can.BusABC, far: can.BusABC
-) -> None:
-    link = Link(near)
+class WatchedBus(VirtualBus):
+    """A bus that tells when somebody waits for a frame."""
 
-    async def scenario() -> None:
-        listening = asyncio.create_task(first(link, 2))
-        far.send(live(0))
-        while not link.counts.received:
-            await asyncio.sleep(0)
-        await asyncio.sleep(0)
+    waited_for: threading.Event
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        self.waited_for.set()
+        return super()._recv_internal(timeout)
+
+
+def test_a_frame_that_arrives_while_listening_is_cancelled_is_not_lost(
+    channel: str, far: can.BusABC
+) -> None:
+    async def scenario(bus: WatchedBus) -> None:
+        listening = asyncio.create_task(first(link, 1))
+        await asyncio.to_thread(bus.waited_for.wait)
         listening.cancel()
         far.send(live(1))
         with contextlib.suppress(asyncio.CancelledError):
             await listening
         assert listening.cancelled()
 
-    asyncio.run(scenario())
-    far.send(live(2))
-    received = [link.receive(timeout=0) for _ in range(2)]
+    with WatchedBus(channel) as bus:
+        bus.waited_for = threading.Event()
+        link = Link(bus)
+        asyncio.run(scenario(bus))
+        far.send(live(2))
+        received = [link.receive(timeout=0) for _ in range(2)]
     assert [each.frame.data[0] for each in received] == [1, 2]
     assert link.counts.faults == 0
 
@@ -148,6 +156,28 @@ def test_the_loop_ends_when_the_bus_is_shut_down(near: can.BusABC, far: can.BusA
 
     far.send(live(0))
     assert asyncio.run(scenario()) == 1
+
+
+class QuietBus(VirtualBus):
+    """A bus that does not say so when it is shut down: it only has nothing more."""
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        return (None, False) if self._is_shutdown else super()._recv_internal(timeout)
+
+
+def test_the_loop_ends_where_a_bus_falls_silent_when_it_is_shut_down(
+    channel: str, far: can.BusABC
+) -> None:
+    async def scenario(bus: can.BusABC) -> int:
+        count = 0
+        async for _ in Link(bus).listen():
+            count += 1
+            bus.shutdown()
+        return count
+
+    with QuietBus(channel) as bus:
+        far.send(live(0))
+        assert asyncio.run(scenario(bus)) == 1
 
 
 class BrokenBus(VirtualBus):

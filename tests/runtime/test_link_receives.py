@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
 
 import can
 import pytest
@@ -87,32 +86,30 @@ def test_a_silent_bus_ends_in_a_timeout_that_says_how_long(near: can.BusABC) -> 
     assert late.value.timeout == 0.05
 
 
-@pytest.fixture
-def babbler(far: can.BusABC) -> Iterator[None]:
-    """Foreign and faulty frames, as fast as they go."""
-    stop = threading.Event()
+class BabblingBus(VirtualBus):
+    """A bus with a frame whenever it is asked."""
 
-    def babble() -> None:
-        while not stop.is_set():
-            far.send(FOREIGN["an_unknown_identifier"])
-            far.send(frame(0x1882D0F3, bytes(7)))
+    frame: can.Message
 
-    thread = threading.Thread(target=babble)
-    thread.start()
-    yield
-    stop.set()
-    thread.join()
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        return self.frame, False
 
 
-@pytest.mark.usefixtures("babbler")
-def test_a_bus_full_of_other_frames_ends_in_a_timeout_too(near: can.BusABC) -> None:
-    link = Link(near)
-    start = time.monotonic()
-    with pytest.raises(ReceiveTimeoutError):
-        link.receive(timeout=0.1)
-    assert 0.1 <= time.monotonic() - start < 5
-    assert link.counts.foreign > 0
-    assert link.counts.length > 0
+@pytest.mark.parametrize(
+    ("babble", "count"), [(frame(0x18FEF100, ST2), "foreign"), (frame(0x1882D0F3, b""), "length")]
+)
+def test_a_bus_full_of_other_frames_ends_in_a_timeout_too(
+    channel: str, babble: can.Message, count: str
+) -> None:
+    with BabblingBus(channel) as bus:
+        bus.frame = babble
+        link = Link(bus)
+        start = time.monotonic()
+        with pytest.raises(ReceiveTimeoutError):
+            link.receive(timeout=0.1)
+        assert 0.1 <= time.monotonic() - start < 5
+        assert getattr(link.counts, count) > 100
+        assert link.counts.received == 0
 
 
 def test_without_waiting_a_message_behind_foreign_frames_is_found(
@@ -178,6 +175,25 @@ def test_iteration_that_waits_ends_when_the_bus_is_shut_down(
     near.shutdown()
     thread.join(5.0)
     assert not thread.is_alive()
+
+
+class QuietBus(VirtualBus):
+    """A bus that does not say so when it is shut down: it only has nothing more."""
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        return (None, False) if self._is_shutdown else super()._recv_internal(timeout)
+
+
+def test_iteration_ends_where_a_bus_falls_silent_when_it_is_shut_down(
+    channel: str, far: can.BusABC
+) -> None:
+    with QuietBus(channel) as bus:
+        far.send(st1(0))
+        count = 0
+        for _ in Link(bus):
+            count += 1
+            bus.shutdown()
+    assert count == 1
 
 
 class BrokenBus(VirtualBus):

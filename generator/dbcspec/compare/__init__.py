@@ -1,1 +1,1 @@
-"""What changed between two protocols, and whom it breaks: one promise, one file, one case folder."""
+"""What changed between two protocols, and whom it breaks: one promise, one file."""

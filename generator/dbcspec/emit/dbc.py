@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 
+from dbcspec.emit.long_names import LongName, shortened
+from dbcspec.emit.multiplexing import marker, selector_lists
 from dbcspec.emit.templating import template
+from dbcspec.layout import float_limits
 from dbcspec.model import (
+    Aspect,
     Bus,
     ByteOrder,
     Message,
+    Node,
     Protocol,
     SendType,
     Signal,
@@ -21,6 +26,8 @@ from dbcspec.model import (
 NOBODY = "Vector__XXX"
 _EXTENDED = 0x8000_0000
 _FRAME_FORMATS = ("StandardCAN", "ExtendedCAN", "reserved", "J1939PG")
+_FD_FRAME_FORMATS = (*_FRAME_FORMATS, *["reserved"] * 10, "StandardCAN_FD", "ExtendedCAN_FD")
+_LONGEST_CLASSIC = 8
 _SEND_TYPES = tuple(
     {0: "Cyclic", 7: "IfActive", 8: "NoMsgSendType"}.get(index, "NotUsed") for index in range(9)
 )
@@ -35,30 +42,39 @@ class Attribute:
     name: str
     type: str
     default: str
+    aspect: Aspect | None = None
 
 
 def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True) -> str:
     """Render a protocol, or the part of it on one bus, as DBC text with CRLF line ends.
 
-    With ``english`` comments and labels are the English ones, else those of the standard. The
-    text is what `dbcspec.lint` passes; it checks nothing.
+    With ``english`` comments and labels are the English ones, else those of the standard; where a
+    text is missing in one language it is that of the other. Names longer than DBC allows get a
+    short one and an attribute with the long one. Attributes are defined for what the protocol
+    carries. The text is what `dbcspec.lint` passes; it checks nothing, see `dbc_faults`.
     """
-    part = _on_bus(protocol, bus) if bus else protocol
+    part, long_names = shortened(_on_bus(protocol, bus) if bus else protocol)
     rates = {each.bit_rate for each in ([bus] if bus else protocol.buses)}
+    attributes = _attributes(protocol, long_names)
     text = template("dbc.j2").render(
         protocol=part,
         digest=protocol.digest,
         db_name=(f"{protocol.name}-{bus.name}" if bus else protocol.name).replace("-", "_"),
+        bus_type=_bus_type(part),
         bit_rate=rates.pop() if len(rates) == 1 else None,
-        attributes=_attributes(protocol),
-        defaults={each.name: each.default for each in _attributes(protocol)},
+        attributes=attributes,
+        defaults={each.name: each.default for each in attributes},
         value_tables=[_value_table(table, english=english) for table in part.value_tables],
         number=number,
-        english=english,
+        comment=_comments(english=english),
+        quote=_quote,
         dbc_id=dbc_id,
         signal_line=_signal_line,
         messages_values=list(_values(part, english=english)),
-        frame_format=_FRAME_FORMATS.index(part.frame_format),
+        float_type=lambda signal: 2 if signal.length == 64 else 1,
+        selector_lists=selector_lists,
+        frame_format=lambda message: _frame_format(part, message),
+        long_names=long_names,
         nobody=NOBODY,
     )
     return text.replace("\n", "\r\n")
@@ -80,16 +96,56 @@ def _signal_line(signal: Signal) -> str:
     sign = "-" if signal.signed else "+"
     receivers = ",".join(signal.receivers) or NOBODY
     return (
-        f" SG_ {signal.name} : {signal.start}|{signal.length}@{order}{sign}"
+        f" SG_ {signal.name}{marker(signal)} : {signal.start}|{signal.length}@{order}{sign}"
         f" ({number(signal.factor)},{number(signal.offset)})"
-        f" [{number(signal.minimum)}|{number(signal.maximum)}]"
-        f' "{signal.unit}" {receivers}'
+        f" [{_limits(signal)}] {_quote(signal.unit)} {receivers}"
     )
+
+
+def _limits(signal: Signal) -> str:
+    """Minimum and maximum; a float that may have any value has none, as plain decimals go."""
+    if signal.is_float and (signal.minimum, signal.maximum) == float_limits(signal.length):
+        return "0|0"
+    return f"{number(signal.minimum)}|{number(signal.maximum)}"
+
+
+def _quote(text: str) -> str:
+    return '"' + text.replace('"', '\\"') + '"'
+
+
+def _comments(*, english: bool) -> Callable[[Protocol | Node | Message | Signal], str]:
+    """The comment of each kind of object, in the other language where it must be."""
+
+    def comment(item: Protocol | Node | Message | Signal) -> str:
+        if isinstance(item, Message):
+            return item.comment(english=english) or item.comment(english=not english)
+        text = (item.english or item.title) if english else (item.title or item.english)
+        number = item.number if isinstance(item, Protocol) else ""
+        return ", ".join(part for part in (text, number) if part)
+
+    return comment
+
+
+def _bus_type(protocol: Protocol) -> str:
+    return "CAN FD" if any(map(_is_fd, protocol.messages)) else "CAN"
+
+
+def _is_fd(message: Message) -> bool:
+    return message.length > _LONGEST_CLASSIC
+
+
+def _frame_format(protocol: Protocol, message: Message) -> int:
+    """The index of VFrameFormat: the protocol's own word counts for extended frames."""
+    if _is_fd(message):
+        return _FD_FRAME_FORMATS.index("ExtendedCAN_FD" if message.extended else "StandardCAN_FD")
+    j1939 = protocol.frame_format == "J1939PG"
+    extended = "J1939PG" if j1939 else "ExtendedCAN"
+    return _FRAME_FORMATS.index(extended if message.extended else "StandardCAN")
 
 
 def _value_table(table: ValueTable, *, english: bool) -> tuple[str, str]:
     return table.name, " ".join(
-        f'{value} "{label}"' for value, label in table.labels(english=english).items()
+        f"{value} {_quote(label)}" for value, label in table.labels(english=english).items()
     )
 
 
@@ -99,29 +155,46 @@ def _values(protocol: Protocol, *, english: bool) -> Iterator[tuple[Message, Sig
             yield message, signal, _value_table(signal.value_table, english=english)[1]
 
 
-def _attributes(protocol: Protocol) -> list[Attribute]:
-    longest_period = max([65535, *(message.period or 0 for message in protocol.messages)])
-    frame_formats = ",".join(f'"{name}"' for name in _FRAME_FORMATS)
-    send_types = ",".join(f'"{name}"' for name in _SEND_TYPES)
-    return [
+def _attributes(protocol: Protocol, long_names: list[LongName]) -> list[Attribute]:
+    messages = protocol.messages
+    longest_period = max([65535, *(message.period or 0 for message in messages)])
+    fastest = max([1_000_000, *(bus.bit_rate for bus in protocol.buses)])
+    starts = [signal.start_value for _, signal in protocol.signals()]
+    lowest, highest = min([0, *starts]), max([_LARGEST_INT, *starts])
+    formats = _FD_FRAME_FORMATS if any(map(_is_fd, messages)) else _FRAME_FORMATS
+    event = _SEND_TYPES[SendType.EVENT.value]
+    every = [
         Attribute("", "BusType", "STRING", '"CAN"'),
-        Attribute("", "Baudrate", "INT 0 1000000", "250000"),
+        Attribute("", "Baudrate", f"INT 0 {fastest}", "250000"),
         Attribute("", "DBName", "STRING", '""'),
         Attribute("", "SpecDigest", "STRING", '""'),
-        Attribute("BU_ ", "NmStationAddress", "INT 0 255", "254"),
-        Attribute("BO_ ", "GenMsgCycleTime", f"INT 0 {longest_period}", "0"),
-        Attribute(
-            "BO_ ", "GenMsgSendType", f"ENUM {send_types}", f'"{_SEND_TYPES[SendType.EVENT.value]}"'
-        ),
-        Attribute("BO_ ", "GenMsgILSupport", 'ENUM "No","Yes"', '"Yes"'),
-        Attribute("BO_ ", "VFrameFormat", f"ENUM {frame_formats}", f'"{_FRAME_FORMATS[0]}"'),
-        Attribute("SG_ ", "GenSigStartValue", f"INT 0 {_LARGEST_INT}", "0"),
+        Attribute("BU_ ", "NmStationAddress", "INT 0 255", "254", Aspect.ADDRESSES),
+        Attribute("BO_ ", "GenMsgCycleTime", f"INT 0 {longest_period}", "0", Aspect.PERIODS),
+        Attribute("BO_ ", "GenMsgSendType", _enum(_SEND_TYPES), f'"{event}"', Aspect.PERIODS),
+        Attribute("BO_ ", "GenMsgILSupport", _enum(("No", "Yes")), '"Yes"'),
+        Attribute("BO_ ", "VFrameFormat", _enum(formats), f'"{formats[0]}"'),
+        Attribute("SG_ ", "GenSigStartValue", f"INT {lowest} {highest}", "0", Aspect.START_VALUES),
         *(
-            Attribute(on, name, "STRING", '""')
+            Attribute(on, name, "STRING", '""', Aspect.REFERENCES)
             for on in ("BO_ ", "SG_ ")
             for name in ("SpecReference", "SpecErrata")
         ),
     ]
+    kinds = {(name.message is not None, name.is_signal) for name in long_names}
+    every += [Attribute(*_LONG[kind], "STRING", '""') for kind in sorted(kinds)]
+    return [each for each in every if each.aspect is None or each.aspect in protocol.carries]
+
+
+_LONG = {
+    (False, False): ("BU_ ", "SystemNodeLongSymbol"),
+    (True, False): ("BO_ ", "SystemMessageLongSymbol"),
+    (True, True): ("SG_ ", "SystemSignalLongSymbol"),
+}
+"""The attribute of a long name by whether it is of a message, and of a signal of it."""
+
+
+def _enum(words: Iterable[str]) -> str:
+    return "ENUM " + ",".join(f'"{word}"' for word in words)
 
 
 def _on_bus(protocol: Protocol, bus: Bus) -> Protocol:

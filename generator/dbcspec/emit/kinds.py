@@ -11,6 +11,7 @@ class Kind(Enum):
     """The kinds of fields, by the runtime class that carries them."""
 
     PHYSICAL = "PhysicalField"
+    FLOAT = "FloatField"
     NUMBER = "NumberField"
     LABELLED = "LabelledField"
     CHARACTER = "CharacterField"
@@ -25,6 +26,8 @@ def kind_of(message: Message, signal: Signal) -> Kind:
     )
     if signal.name in filled:
         return Kind.FILLED
+    if signal.is_float:
+        return Kind.FLOAT
     meanings = value_codes(signal)
     if meanings and all([*map(ord, code.english)] == [code.value] for code in meanings):
         return Kind.CHARACTER

@@ -11,7 +11,7 @@ from dbcspec.lint.rule import Found, Rule, Subject
 def _check(subject: Subject) -> Iterator[Found]:
     places = Places(subject)
     for message, signal in subject.protocol.signals():
-        if signal.value_table is None or not has_room(message, signal):
+        if signal.value_table is None or signal.is_float or not has_room(message, signal):
             continue
         # Signed signals too: readers differ on negative codes.
         highest = signal.raw_limits[1]
@@ -23,7 +23,7 @@ def _check(subject: Subject) -> Iterator[Found]:
                 f"{signal.name}: no code of {signal.length} bits can be "
                 f"{', '.join(map(str, outside))}, only 0~{highest}: correct the codes or the length"
             )
-            yield places.meaning(signal, "codes"), signal.name, text
+            yield Found(places.meaning(signal, "codes"), signal.name, text, message.name)
 
 
 RULE = Rule("code-in-raw-range", "a signal's bits can hold every code of its value table", _check)

@@ -13,7 +13,7 @@ def _check(subject: Subject) -> Iterator[Found]:
         # The text may come from the reader of a new value; the erratum is the one around it.
         before = [erratum for erratum in errata if erratum.where <= fault.where]
         number = max(before, key=lambda erratum: erratum.where).id if before else ""
-        yield fault.where, number, fault.text
+        yield Found(fault.where, number, fault.text)
 
 
 RULE = Rule("erratum-target", "every erratum changes something that exists", _check)

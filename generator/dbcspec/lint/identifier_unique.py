@@ -23,12 +23,12 @@ def _check(subject: Subject) -> Iterator[Found]:
                 f"{message.name}: {shown} is no {width}-bit identifier, which ends at "
                 f"0x{highest:X}: correct it"
             )
-            yield where, message.name, text
+            yield Found(where, message.name, text)
         # Readers look messages up by the number alone, so 11 and 29 bits share one space.
         other = first.setdefault(message.frame_id, message)
         if other is not message:
             text = f"{message.name} has the identifier {shown} of {other.name}: correct one"
-            yield where, message.name, text
+            yield Found(where, message.name, text)
 
 
 RULE = Rule(

@@ -11,47 +11,54 @@ from dbcspec.lint.rule import Found, Rule, Subject
 from dbcspec.model import NOWHERE, Protocol
 from dbcspec.rows import Spec
 
-_Mention = tuple[Location, str, str]
-"""Place, the node named there, and by what."""
+_Mention = tuple[Location, str, str, str]
+"""Place, the node named there, by what, and the message that this is or belongs to, if any."""
 
 
 def _check(subject: Subject) -> Iterator[Found]:
     declared = [node.name for node in subject.protocol.nodes]
     mentions = _in_spec(subject.spec) if subject.spec else _in_model(subject.protocol)
-    for where, node, what in mentions:
+    for where, node, what, message in mentions:
         if node not in declared:
             close = get_close_matches(node, declared, n=1)
             hint = f" (the closest is {close[0]})" if close else ""
             text = f"{what} names {node}, which is no declared node{hint}: declare or correct it"
-            yield where, node, text
-    for message in subject.protocol.messages:
-        if not message.sender:
-            text = f"{message.name} has no sender: give one of its signals a route"
-            yield message.where, message.name, text
+            yield Found(where, node, text, message)
+    remedy = "give one of its signals a route" if subject.spec else "name the node that sends it"
+    for each in subject.protocol.messages:
+        if not each.sender:
+            text = f"{each.name} has no sender: {remedy}"
+            yield Found(each.where, each.name, text, each.name)
 
 
 def _in_spec(spec: Spec) -> Iterator[_Mention]:
     names = node_names(spec)
+    owners = {field.name: message.name for message, field in spec.fields()}
     for _, row in spec.rows():
         sender, receivers = row.route or ("", ())
         for node in (sender, *receivers) if row.route else ():
-            yield row.where_is("route"), names.get(node, node), f"the route of {row.name}"
+            yield (
+                row.where_is("route"),
+                names.get(node, node),
+                f"the route of {row.name}",
+                owners.get(row.name, ""),
+            )
     # Other names are resolved in routes only.
     for bus in spec.standard.buses:
         for node in bus.nodes:
-            yield bus.where_is("nodes"), node, f"the bus {bus.name}"
+            yield bus.where_is("nodes"), node, f"the bus {bus.name}", ""
 
 
 def _in_model(protocol: Protocol) -> Iterator[_Mention]:
     for message in protocol.messages:
         if message.sender:
-            yield message.where, message.sender, f"the message {message.name}"
-    for _, signal in protocol.signals():
+            yield message.where, message.sender, f"the message {message.name}", message.name
+    for message, signal in protocol.signals():
         for node in signal.receivers:
-            yield signal.where, node, f"the signal {signal.name}"
+            yield signal.where, node, f"the signal {signal.name}", message.name
     for bus in protocol.buses:
         for node in bus.nodes:
-            yield NOWHERE, node, f"the bus {bus.name}"
+            yield NOWHERE, node, f"the bus {bus.name}", ""
 
 
 RULE = Rule("node-declared", "senders, receivers and bus members are declared nodes", _check)

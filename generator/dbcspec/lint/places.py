@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dbcspec.errors import Location
 from dbcspec.lint.rule import Subject
-from dbcspec.model import NOWHERE, Message, Signal, ValueTable
+from dbcspec.model import NOWHERE, Message, Protocol, Signal, ValueTable
 from dbcspec.rows import SignalRow, Spec
 
 
@@ -64,3 +64,9 @@ def node_names(spec: Spec) -> dict[str, str]:
     return {
         alias: node.name for node in spec.standard.nodes for alias in (node.name, *node.aliases)
     }
+
+
+def value_tables(protocol: Protocol) -> tuple[ValueTable, ...]:
+    """The value tables of a protocol and those that only its signals have."""
+    used = (signal.value_table for _, signal in protocol.signals() if signal.value_table)
+    return tuple(dict.fromkeys((*protocol.value_tables, *used)))

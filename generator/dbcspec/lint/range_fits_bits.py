@@ -14,7 +14,8 @@ def _check(subject: Subject) -> Iterator[Found]:
     places = Places(subject)
     for message, signal in subject.protocol.signals():
         if has_room(message, signal) and (fault := _fault(signal)):
-            yield places.meaning(signal, "range"), signal.name, f"{signal.name}: {fault}"
+            where = places.meaning(signal, "range")
+            yield Found(where, signal.name, f"{signal.name}: {fault}", message.name)
 
 
 def _fault(signal: Signal) -> str | None:
@@ -23,6 +24,8 @@ def _fault(signal: Signal) -> str | None:
         return "the range 0~0 means none at all in a DBC file: give the real one"
     if signal.minimum >= signal.maximum:
         return f"the range {shown} does not ascend: correct it"
+    if signal.is_float:
+        return None
     low, high = sorted(raw * signal.factor + signal.offset for raw in signal.raw_limits)
     if signal.minimum < low or signal.maximum > high:
         bits = "bit holds" if signal.length == 1 else "bits hold"

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from dbcspec.errors import Fault, Location
-from dbcspec.model import Protocol
+from dbcspec.model import NOWHERE, Protocol
 from dbcspec.rows import Spec
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Finding:
-    """One place where a rule is broken. ``subject`` is the name that a waiver matches."""
+    """One place where a rule is broken.
+
+    ``subject`` is the name that a waiver matches, ``message`` the message that it belongs to, or
+    "" where it belongs to the protocol as a whole.
+    """
 
     where: Location
     rule: str
     subject: str
     text: str
+    message: str = ""
 
     def __str__(self) -> str:
         return f"{self.where}: {self.rule}: {self.text}"
@@ -25,44 +33,91 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Waiver:
-    """A finding that is accepted, with the reason. ``subject`` may have shell wildcards."""
+    """A finding that is accepted, with the reason.
+
+    ``subject`` and ``message`` may have shell wildcards; without ``message`` any is meant.
+    """
 
     rule: str
     subject: str
     reason: str
     where: Location
+    message: str = "*"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """What a project sets for the rules.
+
+    ``bus_load`` is the most that periodic messages may take of a bus, in percent; ``units`` are
+    known units beside the usual ones.
+    """
+
+    bus_load: float = 70.0
+    units: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Subject:
-    """What is linted: the model always, the corrected rows where a spec is the source.
+    """What is linted: the model always, and what its source says besides.
 
-    ``errata_faults`` are the changes that could not be made, ``unused_waivers`` those that
-    matched no finding of the other rules.
+    ``spec`` has the corrected rows where a spec is the source, ``errata_faults`` the changes that
+    could not be made. ``dbc_text`` is the whole text where a DBC file is the source. ``source``
+    is the file that findings without a place of their own are shown at. ``unused_waivers`` are
+    those that matched no finding of the other rules.
     """
 
     protocol: Protocol
     spec: Spec | None = None
+    dbc_text: str | None = None
+    source: str = ""
+    settings: Settings = dataclasses.field(default_factory=Settings)
     errata_faults: tuple[Fault, ...] = ()
     unused_waivers: tuple[Waiver, ...] = ()
 
 
-Found = tuple[Location, str, str]
-"""Place, subject and text of a finding."""
+class Found(NamedTuple):
+    """What a check yields: a finding but for the rule.
+
+    ``message`` can be left out where the subject is a message, or a signal of one message only.
+    """
+
+    where: Location
+    subject: str
+    text: str
+    message: str = ""
+
 
 Check = Callable[[Subject], Iterable[Found]]
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: its stable id, what it is for, and its check."""
+    """A rule: its stable id, what it is for, its check, and whether it runs unasked."""
 
     id: str
     purpose: str
     check: Check
+    default: bool = True
 
     def findings(self, subject: Subject) -> list[Finding]:
         """All findings in a subject, in order of place."""
+        found_all = [*self.check(subject)]
+        messages = _messages(subject.protocol) if found_all else {}
         return sorted(
-            Finding(where, self.id, name, text) for where, name, text in self.check(subject)
+            Finding(
+                where=Location(subject.source) if found.where == NOWHERE else found.where,
+                rule=self.id,
+                subject=found.subject,
+                text=found.text,
+                message=found.message or messages.get(found.subject, ""),
+            )
+            for found in found_all
         )
+
+
+def _messages(protocol: Protocol) -> dict[str, str]:
+    """The message of each name that is a message, or a signal of one message only."""
+    counts = Counter(signal.name for _, signal in protocol.signals())
+    owners = {sig.name: msg.name for msg, sig in protocol.signals() if counts[sig.name] == 1}
+    return owners | {message.name: message.name for message in protocol.messages}

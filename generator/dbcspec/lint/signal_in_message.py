@@ -15,12 +15,12 @@ def _check(subject: Subject) -> Iterator[Found]:
     for table, row in subject.spec.rows():
         if not row.name:
             text = f"row {row.no} has no name: give it one by an erratum"
-            yield row.where, f"{table.stem}/{row.no}", text
+            yield Found(row.where, f"{table.stem}/{row.no}", text)
         elif row.name not in fields:
             close = get_close_matches(row.name, fields, n=1)
             hint = f" (the closest is {close[0]})" if close else ""
             text = f"no message has {row.name}{hint}: correct the name, or add it to the annex"
-            yield row.where_is("name"), row.name, text
+            yield Found(row.where_is("name"), row.name, text)
 
 
 RULE = Rule("signal-in-message", "every row of a table means a signal of a message", _check)

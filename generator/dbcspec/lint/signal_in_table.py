@@ -20,7 +20,7 @@ def _check(subject: Subject) -> Iterator[Found]:
                 f"no table explains {field.name} of {message.name}{hint}: correct the name, or add "
                 f"a row"
             )
-            yield field.where_is("name"), field.name, text
+            yield Found(field.where_is("name"), field.name, text, message.name)
 
 
 RULE = Rule("signal-in-table", "every signal of a message is explained by a table", _check)

@@ -18,13 +18,13 @@ def _check(subject: Subject) -> Iterator[Found]:
                 f"{signal.name} has {signal.length} bits, but {message.name} has room for 1 to "
                 f"{space}: correct the length"
             )
-            yield places.layout(signal, "length"), signal.name, text
+            yield Found(places.layout(signal, "length"), signal.name, text, message.name)
         elif outside := [bit for bit in bits(signal) if not 0 <= bit < space]:
             text = (
                 f"{signal.name} takes bit {min(outside)}, but {message.name} has bits 0 to "
                 f"{space - 1}: correct the start bit, the length or the byte order"
             )
-            yield places.layout(signal, "start"), signal.name, text
+            yield Found(places.layout(signal, "start"), signal.name, text, message.name)
 
 
 RULE = Rule(

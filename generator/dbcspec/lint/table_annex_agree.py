@@ -33,7 +33,7 @@ def _differ(row: SignalRow, field: FieldRow, subject: str) -> Found:
         f"{row.name} has {printed} here, but {field.length} in the annex at "
         f"{field.where_is('length')}: correct one by an erratum"
     )
-    return row.where_is("length"), subject, text
+    return Found(row.where_is("length"), subject, text)
 
 
 def _senders(spec: Spec) -> Iterator[Found]:
@@ -57,7 +57,7 @@ def _senders(spec: Spec) -> Iterator[Found]:
                     f"{row.name} is sent by {sender}, but the rest of {message.name} by {usual}: "
                     f"correct one by an erratum"
                 )
-                yield row.where_is("route"), row.name, text
+                yield Found(row.where_is("route"), row.name, text)
 
 
 def _reserved(spec: Spec) -> Iterator[Found]:

@@ -27,7 +27,7 @@ def _check(subject: Subject) -> Iterator[Found]:
                     f"{row.name}: {_difference(key, here[key], there[key])} at "
                     f"{other.where_is(key)}: correct one by an erratum"
                 )
-                yield row.where_is(key), row.name, text
+                yield Found(row.where_is(key), row.name, text)
 
 
 def _sayings(spec: Spec) -> Callable[[SignalRow], dict[str, object]]:

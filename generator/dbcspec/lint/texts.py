@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from dbcspec.errors import Location
-from dbcspec.lint.places import Places
+from dbcspec.lint.places import Places, value_tables
 from dbcspec.lint.rule import Subject
-from dbcspec.model import NOWHERE, Protocol
+from dbcspec.model import NOWHERE, Aspect, Protocol
 from dbcspec.rows import Spec
 
 
@@ -31,28 +31,42 @@ class Text:
     text: str
     english: bool = True
     use: Use = Use.COMMENT
+    message: str = ""
 
 
 def texts(subject: Subject) -> Iterator[Text]:
-    """All texts that go into DBC files."""
+    """All texts that go into DBC files; a text that is the same in both languages once."""
     places = Places(subject)
     yield from _of_spec(subject.spec) if subject.spec else _of_model(subject.protocol)
     for message in subject.protocol.messages:
-        where = places.message(message, "english")
-        yield Text(where, message.name, f"english of {message.name}", message.english)
-    for _, signal in subject.protocol.signals():
-        name = signal.name
-        english, title = places.meaning(signal, "english"), places.meaning(signal, "title")
-        yield Text(english, name, f"english of {name}", signal.english)
-        yield Text(title, name, f"title of {name}", signal.title, english=False)
-        unit = places.meaning(signal, "unit")
-        yield Text(unit, name, f"unit {signal.unit!r} of {name}", signal.unit, use=Use.UNIT)
+        where, name = places.message(message, "english"), message.name
+        yield Text(where, name, f"{_comment(subject)} of {name}", message.english, message=name)
+    yield from _of_signals(subject, places)
     yield from _labels(subject.protocol, places)
 
 
+def _comment(subject: Subject) -> str:
+    """What the English text of a message or signal is called where it comes from."""
+    return "english" if subject.spec else "comment"
+
+
+def _of_signals(subject: Subject, places: Places) -> Iterator[Text]:
+    called = _comment(subject)
+    for message, signal in subject.protocol.signals():
+        name, owner = signal.name, message.name
+        where = places.meaning(signal, "english")
+        yield Text(where, name, f"{called} of {name}", signal.english, message=owner)
+        if signal.title != signal.english:
+            where, what = places.meaning(signal, "title"), f"title of {name}"
+            yield Text(where, name, what, signal.title, english=False, message=owner)
+        where, what = places.meaning(signal, "unit"), f"unit {signal.unit!r} of {name}"
+        yield Text(where, name, what, signal.unit, use=Use.UNIT, message=owner)
+
+
 def _labels(protocol: Protocol, places: Places) -> Iterator[Text]:
-    for table in protocol.value_tables:
-        yield Text(places.name(table), table.name, f"name of {table.name}", table.name)
+    for table in value_tables(protocol):
+        if Aspect.VALUE_TABLE_NAMES in protocol.carries:
+            yield Text(places.name(table), table.name, f"name of {table.name}", table.name)
         for code in table.codes:
             what = f"{code.english!r}, label {code.value} of {table.name},"
             where = places.codes(table, code.value)
@@ -87,17 +101,21 @@ def _of_spec(spec: Spec) -> Iterator[Text]:
 
 
 def _of_model(protocol: Protocol) -> Iterator[Text]:
-    yield Text(NOWHERE, protocol.name, "number of the protocol", protocol.number)
-    yield Text(NOWHERE, protocol.name, "english of the protocol", protocol.english)
-    yield Text(NOWHERE, protocol.name, "title of the protocol", protocol.title, english=False)
+    name = protocol.name
+    yield Text(NOWHERE, name, "number of the protocol", protocol.number)
+    yield Text(NOWHERE, name, "comment of the protocol", protocol.english)
+    if protocol.title != protocol.english:
+        yield Text(NOWHERE, name, "title of the protocol", protocol.title, english=False)
     for node in protocol.nodes:
-        yield Text(NOWHERE, node.name, f"english of {node.name}", node.english)
-        yield Text(NOWHERE, node.name, f"title of {node.name}", node.title, english=False)
+        yield Text(NOWHERE, node.name, f"comment of {node.name}", node.english)
+        if node.title != node.english:
+            yield Text(NOWHERE, node.name, f"title of {node.name}", node.title, english=False)
     for message in protocol.messages:
         where, name = message.where, message.name
-        yield Text(where, name, f"title of {name}", message.title, english=False)
-        yield Text(where, name, f"condition of {name}", message.condition)
-        yield Text(where, name, f"reference of {name}", message.reference)
-    for _, signal in protocol.signals():
+        if message.title != message.english:
+            yield Text(where, name, f"title of {name}", message.title, english=False, message=name)
+        yield Text(where, name, f"condition of {name}", message.condition, message=name)
+        yield Text(where, name, f"reference of {name}", message.reference, message=name)
+    for message, signal in protocol.signals():
         what = f"reference of {signal.name}"
-        yield Text(signal.where, signal.name, what, signal.reference)
+        yield Text(signal.where, signal.name, what, signal.reference, message=message.name)

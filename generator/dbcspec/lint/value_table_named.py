@@ -31,7 +31,7 @@ def _check(subject: Subject) -> Iterator[Found]:
                 f"{places.codes(closest)}: {_difference(table, closest)}: correct one of them, or "
                 f"name these in standard.yaml"
             )
-        yield places.codes(table), table.name, text
+        yield Found(places.codes(table), table.name, text)
 
 
 def _likeness(one: ValueTable, other: ValueTable) -> float:

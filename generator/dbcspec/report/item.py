@@ -35,7 +35,7 @@ class Item:
     def fingerprint(self) -> str:
         """Eight hexadecimal digits that stay while rule, subject, old and new stay."""
         parts = (self.rule, self.group, self.subject, self.old, self.new or self.text)
-        return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:8]
+        return hashlib.sha256("\0".join(parts).encode("utf-8", "surrogatepass")).hexdigest()[:8]
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,8 +43,7 @@ class _Complaints(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Keep the text."""
-        line = str(record.args[0]) if isinstance(record.args, tuple) and record.args else "?"
-        if line and not line.startswith(";"):  # TRCReader tries the last line of a header too
+        if record.args != ("",):  # TRCReader complains of an empty file
             self.texts.append(record.getMessage())
 
 

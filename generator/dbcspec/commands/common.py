@@ -1,0 +1,75 @@
+"""What several commands share: the project they work in, where reports go, exit statuses."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+from typing import Protocol
+
+from dbcspec.config import find_config
+from dbcspec.errors import FindingsError, ReadError
+from dbcspec.project import Project, load
+from dbcspec.report.formats import FORMATS, render
+from dbcspec.report.item import Report
+
+
+class Commands(Protocol):
+    """The part of argparse's subparsers that commands need."""
+
+    def add_parser(self, name: str, *, help: str, description: str) -> argparse.ArgumentParser:
+        """Declare a command."""
+
+
+def project_option(parser: argparse.ArgumentParser) -> None:
+    """Declare -C."""
+    parser.add_argument(
+        "-C", "--project", type=Path, default=Path(), help="folder to work in (default: this)"
+    )
+
+
+def report_options(parser: argparse.ArgumentParser) -> None:
+    """Declare --format, --json and --output."""
+    parser.add_argument("--format", choices=tuple(FORMATS), default="text", help="(default: text)")
+    parser.add_argument(
+        "--json", dest="format", action="store_const", const="json", help="as --format json"
+    )
+    parser.add_argument("-o", "--output", type=Path, help="write the report here, not to stdout")
+
+
+def load_project(options: argparse.Namespace) -> Project:
+    """The project that -C names."""
+    return load(find_config(options.project.resolve()))
+
+
+def load_sound_project(options: argparse.Namespace) -> Project:
+    """The project, if the linter has nothing against it; raises `FindingsError`."""
+    project = load_project(options)
+    if findings := project.findings():
+        raise FindingsError(findings)
+    return project
+
+
+def print_report(options: argparse.Namespace, report: Report) -> None:
+    """Write a report where the options say, whole or not at all."""
+    if options.output:
+        text = render(report, options.format)
+        write_file(options.output, text.encode("utf-8"))
+        return
+    colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    encoding = (sys.stdout.encoding or "ascii").lower().replace("-", "")
+    sys.stdout.write(
+        render(report, options.format, colour=colour, ascii_only=not encoding.startswith("utf"))
+    )
+
+
+def write_file(path: Path, data: bytes) -> None:
+    """Write a file beside its place and move it there; raises `ReadError`."""
+    beside = path.with_name(f".{path.name}.new")
+    try:
+        beside.write_bytes(data)
+        beside.replace(path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise ReadError(f"{path}: cannot be written: {error.strerror}") from None

@@ -1,0 +1,44 @@
+"""`dbcspec compare`: what changed between two protocols, and whom it breaks."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from dbcspec.commands.common import Commands, print_report, report_options
+from dbcspec.compare.approvals import apply_approvals, read_approvals
+from dbcspec.compare.promise import Class
+from dbcspec.compare.run import RULES, compare
+from dbcspec.read.doors import open_side
+from dbcspec.report.item import LEVELS, Report
+
+
+def add(commands: Commands) -> None:
+    """Declare the command."""
+    text = "say what changed between two protocols, and whom it breaks"
+    parser = commands.add_parser("compare", help=text, description=f"{text.capitalize()}.")
+    parser.set_defaults(run=_compare)
+    side = "a spec folder, DBC, matrix (.xlsx), KCD, SYM or ARXML, or REVISION:PATH of git"
+    parser.add_argument("old", metavar="OLD", help=side)
+    parser.add_argument("new", metavar="NEW", help="the same")
+    parser.add_argument(
+        "--fail-on",
+        choices=tuple(each.word for each in reversed(Class)),
+        default=Class.COSMETIC.word,
+        help="exit 1 from this class on (default: cosmetic, so on any change)",
+    )
+    parser.add_argument("--approvals", type=Path, help="TOML file of accepted findings")
+    parser.add_argument("--encoding", help="of text files, where it is not to be found out")
+    report_options(parser)
+
+
+def _compare(options: argparse.Namespace) -> int:
+    old = open_side(options.old, encoding=options.encoding)
+    new = open_side(options.new, encoding=options.encoding)
+    items = compare(old.protocol, new.protocol)
+    if options.approvals:
+        items = apply_approvals(items, read_approvals(options.approvals))
+    title = f"{options.old} → {options.new}"
+    print_report(options, Report(title=title, items=items, rules=RULES))
+    failing = LEVELS[: LEVELS.index(options.fail_on) + 1]
+    return 1 if any(item.level in failing for item in items) else 0

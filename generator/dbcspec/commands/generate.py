@@ -1,0 +1,88 @@
+"""`dbcspec generate` and `dbcspec check`: write the generated files, or say which are not current."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+from dbcspec.artifacts import artifacts, foreign_artifacts, verify, write
+from dbcspec.commands.common import Commands, load_sound_project, project_option
+from dbcspec.errors import ReadError, StaleArtifactError
+from dbcspec.model import Protocol
+from dbcspec.read.doors import open_side
+
+
+def add(commands: Commands) -> None:
+    """Declare both commands."""
+    text = "write all generated files"
+    generate = commands.add_parser("generate", help=text, description=f"{text.capitalize()}.")
+    generate.set_defaults(run=_generate)
+    project_option(generate)
+    generate.add_argument("--json", action="store_true", help="print JSON")
+    generate.add_argument(
+        "--from", dest="source", metavar="FILE", help="read this DBC or matrix, not the project"
+    )
+    generate.add_argument("--out", type=Path, help="with --from: the folder to write into")
+    generate.add_argument(
+        "--runtime", default="swapcan", help="package that the stubs of FILE import (%(default)s)"
+    )
+    generate.add_argument("--encoding", help="of FILE, where it is not to be found out")
+
+    text = "exit 1 and name each generated file that is not current"
+    check = commands.add_parser("check", help=text, description=f"{text.capitalize()}.")
+    check.set_defaults(run=_check)
+    project_option(check)
+    check.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _generate(options: argparse.Namespace) -> int:
+    if bool(options.source) != bool(options.out):
+        raise ReadError("--from and --out go together")
+    if options.source:
+        protocol = open_side(options.source, encoding=options.encoding).protocol
+        name = Path(options.source.rsplit(":", 1)[-1]).stem
+        root, files = options.out, foreign_artifacts(protocol, name, options.runtime)
+    else:
+        project = load_sound_project(options)
+        protocol, root = project.protocol, project.config.root
+        files = artifacts(protocol, project.config)
+    changed = write(root, files)
+    if options.json:
+        print(json.dumps({**_counts(protocol), "digest": protocol.digest, "changed": changed}))
+        return 0
+    counts = _counts(protocol)
+    print(
+        f"{protocol.name}: {counts['messages']} messages, {counts['signals']} signals,"
+        f" {counts['value_tables']} value tables, {counts['errata']} errata applied,"
+        f" digest {protocol.digest}"
+    )
+    for name in changed:
+        print(f"wrote {name}")
+    print(f"{len(files) - len(changed)} of {len(files)} files were current")
+    return 0
+
+
+def _counts(protocol: Protocol) -> dict[str, int]:
+    return {
+        "messages": len(protocol.messages),
+        "signals": sum(1 for _ in protocol.signals()),
+        "value_tables": len(protocol.value_tables),
+        "errata": len(protocol.errata),
+    }
+
+
+def _check(options: argparse.Namespace) -> int:
+    project = load_sound_project(options)
+    files = artifacts(project.protocol, project.config)
+    stale = verify(project.config.root, files, project.protocol, project.config)
+    if options.json:
+        found = [{"path": each.path, "why": each.why, "diff": list(each.diff)} for each in stale]
+        print(json.dumps(found, ensure_ascii=False))
+        return 1 if stale else 0
+    if stale:
+        raise StaleArtifactError(
+            "\n    ".join((f"{each.path}: {each.why}", *each.diff)) for each in stale
+        )
+    print(f"{len(files)} files are current, digest {project.protocol.digest}")
+    return 0

@@ -1,0 +1,99 @@
+"""`dbcspec lint` and `dbcspec rules`: faults in a spec, a DBC or a matrix, and what is looked for."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from dbcspec.commands.common import (
+    Commands,
+    load_project,
+    print_report,
+    project_option,
+    report_options,
+    write_file,
+)
+from dbcspec.compare.run import RULES as PROMISES
+from dbcspec.config import read_lint_config
+from dbcspec.errors import ReadError
+from dbcspec.fix import fix_bytes, raw_text
+from dbcspec.lint.items import rule_infos, to_items
+from dbcspec.lint.options import Options
+from dbcspec.lint.rule import Subject
+from dbcspec.lint.run import lint_with
+from dbcspec.read.doors import open_side
+from dbcspec.read.encoding import find_encoding, read_text
+from dbcspec.report.item import Report
+from dbcspec.report.rules import print_rules
+
+
+def add(commands: Commands) -> None:
+    """Declare both commands."""
+    text = "find faults in the spec, or in a DBC, a matrix or another spec"
+    lint = commands.add_parser("lint", help=text, description=f"{text.capitalize()}.")
+    lint.set_defaults(run=_lint)
+    project_option(lint)
+    lint.add_argument("target", nargs="?", help="what to lint (default: the project's spec)")
+    lint.add_argument("--config", type=Path, help="TOML file with select, ignore and waivers")
+    lint.add_argument("--encoding", help="of TARGET, where it is not to be found out")
+    lint.add_argument("--fix", action="store_true", help="mend a DBC file where that is certain")
+    report_options(lint)
+
+    text = "list the lint rules and the promises of compare"
+    rules = commands.add_parser("rules", help=text, description=f"{text.capitalize()}.")
+    rules.set_defaults(run=_rules)
+    rules.add_argument("--format", choices=("text", "json", "markdown"), default="text")
+    rules.add_argument("--json", dest="format", action="store_const", const="json")
+
+
+def _lint(options: argparse.Namespace) -> int:
+    if options.fix:
+        _fix(options)
+    if options.target:
+        found = Options() if options.config is None else read_lint_config(options.config)
+        side = open_side(options.target, encoding=options.encoding)
+        subject = Subject(
+            protocol=side.protocol,
+            spec=side.spec,
+            errata_faults=side.errata_faults,
+            dbc_text=_dbc_text(Path(options.target), options.encoding),
+            source=options.target,
+        )
+        title = options.target
+    else:
+        project = load_project(options)
+        found = project.config.lint if options.config is None else read_lint_config(options.config)
+        subject = project.subject()
+        title = project.config.spec
+    items = to_items(lint_with(subject, found))
+    print_report(options, Report(title=title, items=items, rules=rule_infos()))
+    return 1 if items else 0
+
+
+def _dbc_text(path: Path, encoding: str | None) -> str | None:
+    """The text of a DBC file on disk, breaks as they are; None for anything else."""
+    if path.suffix.lower() != ".dbc" or not path.is_file():
+        return None
+    read_text(path, encoding)  # Says what is wrong with a file that is no text.
+    data = path.read_bytes()
+    return raw_text(data, encoding or find_encoding(data) or "utf-8")
+
+
+def _fix(options: argparse.Namespace) -> None:
+    """Mend the target file in place, and say on stderr what was done."""
+    path = Path(options.target or "")
+    text = _dbc_text(path, options.encoding)
+    if text is None:
+        raise ReadError("--fix mends a DBC file: name one")
+    data = path.read_bytes()
+    fixed, done = fix_bytes(data, options.encoding or find_encoding(data) or "utf-8")
+    if done:
+        write_file(path, fixed)
+    for each in done:
+        print(f"{path}: {each}", file=sys.stderr)
+
+
+def _rules(options: argparse.Namespace) -> int:
+    print(print_rules([*rule_infos(), *PROMISES], options.format), end="")
+    return 0

@@ -1,0 +1,92 @@
+"""`dbcspec matrix export`, `dbcspec matrix import`, `dbcspec import`: in and out of other files."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from dbcspec.artifacts import write
+from dbcspec.commands.common import (
+    Commands,
+    load_project,
+    print_report,
+    project_option,
+    report_options,
+    write_file,
+)
+from dbcspec.compare.run import RULES, compare
+from dbcspec.emit.matrix import emit_matrix
+from dbcspec.emit.spec import emit_spec
+from dbcspec.errors import ReadError
+from dbcspec.read.doors import open_side
+from dbcspec.read.matrix import read_matrix
+from dbcspec.report.item import Report
+from dbcspec.write_spec import propose_spec
+
+
+def add(commands: Commands) -> None:
+    """Declare the commands."""
+    text = "write or read the Excel CAN matrix"
+    matrix = commands.add_parser("matrix", help=text, description=f"{text.capitalize()}.")
+    ways = matrix.add_subparsers(title="commands", metavar="", required=True)
+
+    text = "write the matrix of the project, or of a DBC"
+    export = ways.add_parser("export", help=text, description=f"{text.capitalize()}.")
+    export.set_defaults(run=_export)
+    project_option(export)
+    export.add_argument("source", nargs="?", help="a DBC or spec (default: the project)")
+    export.add_argument("-o", "--output", type=Path, help="(default: NAME.xlsx)")
+    export.add_argument("--encoding", help="of a DBC, where it is not to be found out")
+
+    text = "compare a matrix with the project's spec, or write its changes into the spec"
+    import_ = ways.add_parser("import", help=text, description=f"{text.capitalize()}.")
+    import_.set_defaults(run=_import_matrix)
+    project_option(import_)
+    import_.add_argument("file", type=Path, help="the .xlsx file")
+    import_.add_argument("--write-spec", action="store_true", help="change the YAML accordingly")
+    report_options(import_)
+
+    text = "write a first spec folder from a DBC or another file"
+    foreign = commands.add_parser("import", help=text, description=f"{text.capitalize()}.")
+    foreign.set_defaults(run=_import)
+    foreign.add_argument("file", help="a DBC, matrix, KCD, SYM or ARXML")
+    foreign.add_argument("--out", type=Path, required=True, help="a folder that is new or empty")
+    foreign.add_argument("--encoding", help="of FILE, where it is not to be found out")
+
+
+def _export(options: argparse.Namespace) -> int:
+    if options.source:
+        protocol = open_side(options.source, encoding=options.encoding).protocol
+    else:
+        protocol = load_project(options).protocol
+    path = options.output or Path(f"{protocol.name}.xlsx")
+    write_file(path, emit_matrix(protocol))
+    print(f"wrote {path}")
+    return 0
+
+
+def _import_matrix(options: argparse.Namespace) -> int:
+    project = load_project(options)
+    matrix = read_matrix(options.file)
+    if not options.write_spec:
+        items = compare(project.protocol, matrix)
+        title = f"{project.config.spec} → {options.file}"
+        print_report(options, Report(title=title, items=items, rules=RULES))
+        return 1 if items else 0
+    folder = project.config.root / project.config.spec
+    proposal = propose_spec(folder, project.protocol, matrix)
+    for name in write(folder, proposal.files):
+        print(f"wrote {project.config.spec}/{name}")
+    for text in proposal.left:
+        print(f"dbcspec: not written: {text}", file=sys.stderr)
+    return 1 if proposal.left else 0
+
+
+def _import(options: argparse.Namespace) -> int:
+    if options.out.exists() and any(options.out.iterdir()):
+        raise ReadError(f"{options.out}: is not empty; a spec is written into a folder of its own")
+    protocol = open_side(options.file, encoding=options.encoding).protocol
+    for name in write(options.out, emit_spec(protocol)):
+        print(f"wrote {options.out / name}")
+    return 0

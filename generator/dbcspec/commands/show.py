@@ -1,0 +1,41 @@
+"""`dbcspec show` and `dbcspec textconv`: one message for people, a whole protocol for git diff."""
+
+from __future__ import annotations
+
+import argparse
+
+from dbcspec.commands.common import Commands, load_project, project_option
+from dbcspec.read.doors import open_side
+from dbcspec.show import find_message, show
+from dbcspec.textconv import textconv
+
+
+def add(commands: Commands) -> None:
+    """Declare both commands."""
+    text = "show one message in the terminal"
+    one = commands.add_parser("show", help=text, description=f"{text.capitalize()}.")
+    one.set_defaults(run=_show)
+    project_option(one)
+    one.add_argument("name", metavar="MESSAGE", help="a message, or one of its signals")
+    one.add_argument("--in", dest="source", help="a DBC, matrix or spec (default: the project)")
+    one.add_argument("--encoding", help="of that file, where it is not to be found out")
+
+    text = "print a protocol line by line, for git's textconv"
+    whole = commands.add_parser("textconv", help=text, description=f"{text.capitalize()}.")
+    whole.set_defaults(run=_textconv)
+    whole.add_argument("source", metavar="FILE", help="a DBC, matrix or spec folder")
+    whole.add_argument("--encoding", help="of FILE, where it is not to be found out")
+
+
+def _show(options: argparse.Namespace) -> int:
+    if options.source:
+        protocol = open_side(options.source, encoding=options.encoding).protocol
+    else:
+        protocol = load_project(options).protocol
+    print(show(protocol, find_message(protocol, options.name)), end="")
+    return 0
+
+
+def _textconv(options: argparse.Namespace) -> int:
+    print(textconv(open_side(options.source, encoding=options.encoding).protocol), end="")
+    return 0

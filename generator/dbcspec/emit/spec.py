@@ -1,0 +1,292 @@
+"""The model to a first spec folder: YAML that reads back as the same protocol.
+
+What a spec cannot say is left out: value tables that no signal has, errata, and references to a
+standard, which a spec makes from its own tables.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+
+from dbcspec.emit.dbc import number
+from dbcspec.layout import float_limits
+from dbcspec.model import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
+from dbcspec.naming import field_name, shared_prefix
+
+_PLAIN = re.compile(r"[A-Za-z0-9_一-鿿](?:[A-Za-z0-9_./%()一-鿿-]| (?=[^ ]))*")
+_UNPRINTED = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
+_TYPES = {SendType.CYCLIC: "Cyclic", SendType.IF_ACTIVE: "IfActive", SendType.EVENT: "Event"}
+
+Pairs = Iterable[tuple[str, object]]
+
+
+def emit_spec(protocol: Protocol) -> dict[str, bytes]:
+    """The files of a spec folder, path below it to bytes in UTF-8.
+
+    One table per message; a signal whose name several messages have gets its row for each.
+    """
+    names = Counter(signal.name for _, signal in protocol.signals())
+    repeated = {name for name, count in names.items() if count > 1}
+    with_signals = [message for message in protocol.messages if message.signals]
+    width = max(2, len(str(len(with_signals))))
+    files = {
+        "standard.yaml": _standard(protocol, repeated),
+        "messages.yaml": _messages(protocol),
+        "behaviour.yaml": _behaviour(protocol),
+    }
+    for count, message in enumerate(with_signals, start=1):
+        files[f"tables/{count:0{width}}-{message.name}.yaml"] = _table(message, count, repeated)
+    return {name: ("\n".join(lines) + "\n").encode("utf-8") for name, lines in files.items()}
+
+
+def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
+    yield "# The protocol, who takes part, on which buses, and the conventions of its tables."
+    yield f"number: {_text(protocol.number)}"
+    yield f"title: {_text(protocol.title)}"
+    yield f"english: {_text(protocol.english)}"
+    if protocol.edition:
+        yield f"edition: {_text(protocol.edition)}"
+    yield from _list(
+        "nodes",
+        (
+            [
+                ("name", node.name),
+                ("title", node.title or None),
+                ("english", node.english),
+                ("address", node.address),
+                ("other_addresses", node.other_addresses or None),
+            ]
+            for node in protocol.nodes
+        ),
+    )
+    yield from _list(
+        "buses",
+        (
+            [
+                ("name", re.sub(r"\W|^(?=\d)", "_", bus.name, flags=re.ASCII)),
+                ("title", bus.title or None),
+                ("english", bus.english),
+                ("bit_rate", bus.bit_rate),
+                ("nodes", bus.nodes),
+            ]
+            for bus in protocol.buses
+        ),
+    )
+    yield f"frame_format: {protocol.frame_format}"
+    for key, labels in _state_labels(protocol).items():
+        if labels:
+            yield f"{key}: [{', '.join(map(_text, labels))}]"
+    named = _named_tables(protocol, repeated)
+    if named:
+        yield "value_tables:"
+        yield from (f"  {name}: {signal}" for name, signal in named.items())
+
+
+def _state_labels(protocol: Protocol) -> dict[str, list[str]]:
+    """The labels of the codes that are invalid or abnormal."""
+    found: dict[str, dict[str, None]] = {"invalid_labels": {}, "abnormal_labels": {}}
+    for _, signal in protocol.signals():
+        labels = signal.value_table.labels(english=False) if signal.value_table else {}
+        states = (signal.invalid_code, signal.abnormal_code)
+        for key, code in zip(found, states, strict=True):
+            if code in labels:
+                found[key][labels[code]] = None
+    return {key: list(labels) for key, labels in found.items()}
+
+
+def _named_tables(protocol: Protocol, repeated: set[str]) -> dict[str, str]:
+    """Each value table with the first signal that has it."""
+    users: dict[ValueTable, str] = {}
+    for message, signal in protocol.signals():
+        if signal.value_table:
+            users.setdefault(signal.value_table, _signal_name(message, signal, repeated))
+    first = [table for table in protocol.value_tables if table in users]
+    return {table.name: users[table] for table in dict.fromkeys((*first, *users))}
+
+
+def _signal_name(message: Message, signal: Signal, repeated: set[str]) -> str:
+    return f"{message.name}.{signal.name}" if signal.name in repeated else signal.name
+
+
+def _messages(protocol: Protocol) -> Iterator[str]:
+    orders = Counter(signal.byte_order for _, signal in protocol.signals())
+    usual = orders.most_common(1)[0][0] if orders else ByteOrder.INTEL
+    yield "# The layout of the frames."
+    yield "annex: messages"
+    yield f"byte_order: {usual.value}"
+    yield "messages:" if protocol.messages else "messages: []"
+    for message in protocol.messages:
+        yield from _message(message, protocol, usual)
+
+
+def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator[str]:
+    extended = protocol.frame_format != "StandardCAN"
+    orders = Counter(signal.byte_order for signal in message.signals)
+    order = orders.most_common(1)[0][0] if orders else usual
+    yield f"  - id: 0x{message.frame_id:X}"
+    yield from _lines(
+        4,
+        [
+            ("name", message.name),
+            ("english", message.english or (None if message.signals else message.title) or None),
+            ("length", message.length),
+            ("type", _TYPES[message.send_type]),
+            ("period", message.period or 0),
+            ("byte_order", order.value if order is not usual else None),
+            ("extended", ("no", "yes")[message.extended] if message.extended != extended else None),
+            ("sender", message.sender or None if not message.signals else None),
+        ],
+    )
+    prefixes = (f"{message.name}_", shared_prefix([signal.name for signal in message.signals]))
+    yield "    signals:" if message.signals else "    signals: []"
+    for signal in message.signals:
+        yield f"      - {{{_flow(_field(signal, order, prefixes))}}}"
+
+
+def _field(signal: Signal, order: ByteOrder, prefixes: tuple[str, ...]) -> Pairs:
+    derived = field_name(signal.name, prefixes)
+    kind = "float" if signal.is_float else "signed"
+    usual = 0 if signal.invalid_code is None else signal.invalid_code
+    return [
+        ("name", signal.name),
+        ("length", signal.length),
+        ("start", signal.start),
+        ("field", signal.python_name if signal.python_name not in ("", derived) else None),
+        ("byte_order", signal.byte_order.value if signal.byte_order is not order else None),
+        ("type", kind if signal.signed or signal.is_float else None),
+        ("initial", signal.start_value if signal.start_value != usual else None),
+        ("selector", "yes" if signal.is_selector else None),
+        ("multiplexer", signal.multiplexer or None),
+        ("selectors", signal.selectors or None),
+    ]
+
+
+def _table(message: Message, count: int, repeated: set[str]) -> Iterator[str]:
+    yield f"number: {count}"
+    yield f"title: {_text(message.title)}"
+    yield f"english: {_text(message.english)}"
+    yield f'clause: "{count}"'
+    yield "rows:"
+    for row, signal in enumerate(message.signals, start=1):
+        yield f"  - no: {row}"
+        yield from _lines(4, _row(message, signal, repeated))
+
+
+def _row(message: Message, signal: Signal, repeated: set[str]) -> Pairs:
+    limits = signal.minimum, signal.maximum
+    is_open = signal.is_float and limits == float_limits(signal.length)
+    codes = signal.value_table.codes if signal.value_table else ()
+    english = {code.value: code.english for code in codes if code.english != code.label}
+    return [
+        ("name", signal.name),
+        ("message", message.name if signal.name in repeated else None),
+        ("title", signal.title or None),
+        ("english", signal.english or None),
+        ("length", signal.length),
+        ("codes", {code.value: code.label for code in codes} or None),
+        ("english_codes", english or None),
+        ("factor", number(signal.factor)),
+        ("offset", number(signal.offset)),
+        ("unit", signal.unit),
+        ("range", None if is_open else f"{number(signal.minimum)}~{number(signal.maximum)}"),
+        ("route", f"{message.sender or '-'}>{','.join(signal.receivers) or '-'}"),
+    ]
+
+
+def _behaviour(protocol: Protocol) -> Iterator[str]:
+    yield "# What happens on the bus beyond the layout."
+    messages = protocol.messages
+    sections: dict[str, list[Pairs]] = {
+        "checksums": [
+            [
+                ("signal", checksum.signal),
+                ("algorithm", checksum.algorithm),
+                ("bytes", f"{checksum.first_byte}~{checksum.last_byte}"),
+            ]
+            for checksum in (message.checksum for message in messages)
+            if checksum
+        ],
+        "counters": [
+            [("signal", counter.signal), ("modulus", counter.modulus)]
+            for counter in (message.counter for message in messages)
+            if counter
+        ],
+        "transfers": list(_transfers(protocol)),
+        "requests": [
+            [
+                ("signal", request.signal),
+                ("code", request.code),
+                ("withdraw", request.withdraw),
+                ("answers", request.answers),
+            ]
+            for request in protocol.requests
+        ],
+        "timing": [
+            [
+                ("name", message.name),
+                ("condition", message.condition),
+                ("messages", (message.name,)),
+            ]
+            for message in messages
+            if message.condition
+        ],
+    }
+    for key, rows in sections.items():
+        yield from _list(key, rows) if rows else [f"{key}: []"]
+
+
+def _transfers(protocol: Protocol) -> Iterator[Pairs]:
+    for transfer in protocol.transfers:
+        yield [
+            ("name", transfer.name),
+            ("english", transfer.english),
+            ("messages", transfer.messages),
+            ("items", transfer.items),
+            ("count", transfer.count),
+            ("count_signal", transfer.count_signal or None),
+            ("frame_number", transfer.frame_number or None),
+            ("group", transfer.group or None),
+            ("groups_signal", transfer.groups_signal or None),
+            ("length_signal", transfer.length_signal or None),
+            ("numbering", "within_group" if transfer.numbered_within_group else None),
+            ("fill", transfer.fill),
+        ]
+
+
+def _list(key: str, rows: Iterable[Pairs]) -> Iterator[str]:
+    """A key with a list of mappings, nothing where there are none."""
+    lines = [f"  - {{{_flow(pairs)}}}" for pairs in rows]
+    if lines:
+        yield f"{key}:"
+        yield from lines
+
+
+def _lines(indent: int, pairs: Pairs) -> Iterator[str]:
+    for key, value in pairs:
+        if value is not None:
+            yield f"{' ' * indent}{key}: {_value(value)}"
+
+
+def _flow(pairs: Pairs) -> str:
+    return ", ".join(f"{key}: {_value(value)}" for key, value in pairs if value is not None)
+
+
+def _value(value: object) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, Mapping):
+        inner = ", ".join(f"{key}: {_text(str(label))}" for key, label in value.items())
+        return f"{{{inner}}}"
+    return _text(value) if isinstance(value, str) else str(value)
+
+
+def _text(text: str) -> str:
+    """A scalar that YAML reads as this very text."""
+    if _PLAIN.fullmatch(text):
+        return text
+    return _UNPRINTED.sub(
+        lambda match: f"\\u{ord(match[0]):04x}", json.dumps(text, ensure_ascii=False)
+    )

@@ -1,0 +1,97 @@
+"""Multiplexing in generated Python: a field of a branch that is not there is None."""
+
+from __future__ import annotations
+
+from dbcspec.emit.stub_docs import quote
+from dbcspec.model import Message, Protocol, Signal
+
+_LONGEST_LINE = 100
+
+Conditions = tuple[tuple[int, tuple[int, ...]], ...]
+"""Which raw values the selectors must have, outermost first: index of its field, and values."""
+
+
+def conditions(message: Message, ordered: list[Signal], signal: Signal) -> Conditions:
+    """When a signal is there; ``ordered`` has the signals as their fields are."""
+    by_name = {each.name: each for each in message.signals}
+    found: list[tuple[int, tuple[int, ...]]] = []
+    while signal.multiplexer in by_name and len(found) < len(ordered):
+        selector = by_name[signal.multiplexer]
+        found.insert(0, (ordered.index(selector), signal.selectors))
+        signal = selector
+    return tuple(found)
+
+
+class Branches:
+    """Names the sets of selectors of a protocol, and writes what depends on them."""
+
+    def __init__(self, protocol: Protocol) -> None:
+        every = dict.fromkeys(signal.selectors for _, signal in protocol.signals())
+        used = [values for values in every if values]
+        self._names = {values: f"_BRANCH_{count}" for count, values in enumerate(used, start=1)}
+
+    def constants(self) -> list[str]:
+        """The lines of the decoders' module that define the sets."""
+        return [_constant(name, values) for values, name in self._names.items()]
+
+    def decoded(self, target: str, value: str, when: Conditions) -> str:
+        """The lines that set a field of a message."""
+        lines = [f"    {target} = None"] if when else []
+        for depth, (index, values) in enumerate(when, start=1):
+            lines.append(f"{'    ' * depth}if v[{index}] in {self._names[values]}:")
+        return "\n".join((*lines, assigned(target, value, len(when) + 1)))
+
+
+def assigned(target: str, value: str, depth: int = 1) -> str:
+    """An assignment in a block, in parentheses where it is too long, as the formatter wants it."""
+    indent = "    " * depth
+    line = f"{indent}{target} = {value}"
+    if len(line) <= _LONGEST_LINE:
+        return line
+    return f"{indent}{target} = (\n{indent}    {value}\n{indent})"
+
+
+def called(target: str, function: str, arguments: str) -> str:
+    """An assignment of what a function returns, at the beginning of a line."""
+    line = f"{target} = {function}({arguments})"
+    return line if len(line) <= _LONGEST_LINE else f"{target} = {function}(\n    {arguments}\n)"
+
+
+def selected(message: Message) -> list[str]:
+    """The entries of a message's table of branches: field, its selector, the selecting values."""
+    names = {signal.name: signal.python_name for signal in message.signals}
+    return [
+        _selected(quote(signal.python_name), quote(names[signal.multiplexer]), signal.selectors)
+        for signal in message.signals
+        if signal.multiplexer in names
+    ]
+
+
+def _selected(field: str, selector: str, values: tuple[int, ...]) -> str:
+    line = f"        {field}: ({selector}, {_tuple(values)}),"
+    if len(line) <= _LONGEST_LINE:
+        return line
+    return "\n".join(
+        (
+            f"        {field}: (",
+            f"            {selector},",
+            *_column(values, "            ", ","),
+            "        ),",
+        )
+    )
+
+
+def _constant(name: str, values: tuple[int, ...]) -> str:
+    line = f"{name} = frozenset({_tuple(values)})"
+    if len(line) <= _LONGEST_LINE:
+        return line
+    return "\n".join((f"{name} = frozenset(", *_column(values, "    ", ""), ")"))
+
+
+def _tuple(values: tuple[int, ...]) -> str:
+    return f"({values[0]},)" if len(values) == 1 else f"({', '.join(map(str, values))})"
+
+
+def _column(values: tuple[int, ...], indent: str, end: str) -> list[str]:
+    """A tuple that is too long for a line, as the formatter wants it."""
+    return [f"{indent}(", *(f"{indent}    {value}," for value in values), f"{indent}){end}"]

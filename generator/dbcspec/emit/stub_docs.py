@@ -1,0 +1,74 @@
+"""What generated Python says of itself: docstrings, and texts as literals."""
+
+from __future__ import annotations
+
+import textwrap
+
+from dbcspec.emit.dbc import number
+from dbcspec.layout import float_limits
+from dbcspec.model import Message, Signal
+
+_WIDTH = 92
+
+
+def quote(text: str) -> str:
+    """A string literal as the formatter wants it."""
+    plain = " ".join(text.split()) if not text.isprintable() else text
+    mark = "'" if plain.count('"') > plain.count("'") else '"'
+    return mark + plain.replace("\\", "\\\\").replace(mark, f"\\{mark}") + mark
+
+
+def enum_doc(users: tuple[Signal, ...]) -> str:
+    """Of an enum: whose codes they are."""
+    first, *others = users
+    more = f" and {len(others)} more" if others else ""
+    return _line(f"Codes of {first.name}{more}{_cited(first.reference)}.")
+
+
+def field_doc(signal: Signal) -> str:
+    """Of a field: title, limits, name in the DBC, place in the standard."""
+    english = signal.english or signal.title or signal.name
+    title = f" ({signal.title})" if signal.title not in ("", english) else ""
+    text = f"{english}{title}: {_limits(signal)}. {signal.name}{_cited(signal.reference)}."
+    return _wrapped(text)
+
+
+def _limits(signal: Signal) -> str:
+    unit = f" {signal.unit}" if signal.unit else ""
+    if signal.is_float and (signal.minimum, signal.maximum) == float_limits(signal.length):
+        return f"any number{unit}"
+    return f"{number(signal.minimum)} to {number(signal.maximum)}{unit}"
+
+
+def message_doc(message: Message) -> str:
+    """Of a message: what it carries, identifier, route, when it is sent."""
+    when = f", every {message.period} ms" if message.period else ""
+    while_ = f", sent {message.condition}" if message.condition else ""
+    facts = f"Identifier 0x{message.frame_id:08X}{_route(message)}{when}{while_}."
+    if message.reference:
+        facts += f" {message.reference}."
+    title = f"{_line(message.title)}.\n\n    " if message.title else ""
+    return f"{_line(message.english or message.name)}.\n\n    {title}{_wrapped(facts)}"
+
+
+def _route(message: Message) -> str:
+    receivers = " and ".join(message.receivers)
+    if message.sender and receivers:
+        return f", {message.sender} to {receivers}"
+    if message.sender:
+        return f", from {message.sender}"
+    return f", to {receivers}" if receivers else ""
+
+
+def _cited(reference: str) -> str:
+    return f", {reference}" if reference else ""
+
+
+def _line(text: str) -> str:
+    """One line that can stand between three quotes."""
+    return " ".join(text.split()).replace("\\", "\\\\").replace('"', "'")
+
+
+def _wrapped(text: str) -> str:
+    lines = textwrap.wrap(_line(text), _WIDTH, break_long_words=False, break_on_hyphens=False)
+    return "\n    ".join(lines)

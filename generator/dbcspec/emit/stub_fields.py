@@ -1,0 +1,183 @@
+"""The fields of generated Python classes: what is written for each signal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dbcspec.emit.kinds import Kind, kind_of
+from dbcspec.emit.stub_branches import Conditions, conditions
+from dbcspec.emit.stub_docs import field_doc, quote
+from dbcspec.model import ByteOrder, Message, Signal, ValueTable
+from dbcspec.naming import member_names
+
+_TABLE_BITS = 10
+
+
+@dataclass(frozen=True, slots=True)
+class StubField:
+    """A signal, and what the templates write for it."""
+
+    signal: Signal
+    kind: Kind
+    annotation: str
+    default: str
+    doc: str
+    expression: str
+    arguments: tuple[tuple[str, str], ...]
+    conditions: Conditions
+
+
+def fields_of(message: Message) -> list[StubField]:
+    """The fields of a message, in the order in which a DBC reader lists its signals."""
+    ordered = sorted(message.signals, key=_bit_order)
+    return [
+        _field(message, signal, index, conditions(message, ordered, signal))
+        for index, signal in enumerate(ordered)
+    ]
+
+
+def _bit_order(signal: Signal) -> int:
+    """The order in which a DBC reader lists signals: by start bit, bytes from the left."""
+    from_left = 8 * (signal.start // 8) + 7 - signal.start % 8
+    return signal.start if signal.byte_order is ByteOrder.INTEL else from_left
+
+
+def _field(message: Message, signal: Signal, index: int, when: Conditions) -> StubField:
+    kind = kind_of(message, signal)
+    absent = " | None" if when and kind is not Kind.FILLED else ""
+    return StubField(
+        signal=signal,
+        kind=kind,
+        annotation=_annotation(signal, kind) + absent,
+        default="None" if when else _default(signal, kind),
+        doc=field_doc(signal),
+        expression=_expression(signal, kind, f"v[{index}]"),
+        arguments=tuple(_arguments(signal, kind)),
+        conditions=when,
+    )
+
+
+def _states(signal: Signal) -> dict[int, str]:
+    pairs = ((signal.invalid_code, "INVALID"), (signal.abnormal_code, "ABNORMAL"))
+    return {code: state for code, state in pairs if code is not None}
+
+
+def _annotation(signal: Signal, kind: Kind) -> str:
+    state = " | SignalState" if _states(signal) else ""
+    if kind is Kind.LABELLED:
+        return f"{_enum_name(signal)} | int"
+    return {
+        Kind.PHYSICAL: f"float{state}",
+        Kind.FLOAT: "float",
+        Kind.NUMBER: f"int{state}",
+        Kind.CHARACTER: f"str | int{state}",
+        Kind.FILLED: f"int{state} | None",
+    }[kind]
+
+
+def _default(signal: Signal, kind: Kind) -> str:
+    raw = signal.start_value
+    if kind is Kind.FILLED:
+        return "None"
+    if kind is Kind.LABELLED and signal.value_table:
+        member = members(signal.value_table).get(raw)
+        return f"{_enum_name(signal)}.{member}" if member else str(raw)
+    if kind is Kind.FLOAT:
+        return _float(_physical(signal, raw))
+    if raw in _states(signal):
+        return f"SignalState.{_states(signal)[raw]}"
+    return _float(_physical(signal, raw)) if kind is Kind.PHYSICAL else str(raw)
+
+
+def _physical(signal: Signal, raw: int) -> float:
+    """In the arithmetic of the decoder, so that limits hold to the last bit."""
+    return raw * float(signal.factor) + float(signal.offset)
+
+
+def _float(value: float) -> str:
+    """A literal as the formatter wants it."""
+    return repr(value).replace("e+", "e")
+
+
+def _expression(signal: Signal, kind: Kind, raw: str) -> str:
+    """Python that turns a raw value into the field's."""
+    value = raw
+    if kind in (Kind.LABELLED, Kind.CHARACTER):
+        table = code_table_name(signal)
+        value = f"{table}[{raw}]" if has_short_table(signal) else f"{table}.get({raw}, {raw})"
+    if kind is Kind.LABELLED:
+        return value
+    if kind in (Kind.PHYSICAL, Kind.FLOAT):
+        value = f"{raw} * {_float(float(signal.factor))}" if signal.factor != 1 else f"float({raw})"
+        if signal.offset:
+            start = raw if signal.factor == 1 else value
+            sign = "-" if signal.offset < 0 else "+"
+            value = f"{start} {sign} {_float(abs(float(signal.offset)))}"
+    for code, state in reversed(_states(signal).items()) if kind is not Kind.FLOAT else ():
+        value = f"{state} if {raw} == {code} else {value}"
+    return value
+
+
+def _arguments(signal: Signal, kind: Kind) -> list[tuple[str, str]]:
+    """Keyword arguments of the runtime field, those with a default left out."""
+    arguments = [
+        ("name", quote(signal.python_name)),
+        ("dbc_name", quote(signal.name)),
+        ("title", quote(signal.english)),
+    ]
+    if signal.unit:
+        arguments.append(("unit", quote(signal.unit)))
+    arguments += [("reference", quote(signal.reference)), ("length", str(signal.length))]
+    if kind is Kind.FLOAT:
+        return [
+            *arguments,
+            ("factor", _float(float(signal.factor))),
+            ("offset", _float(float(signal.offset))),
+            ("minimum", _float(float(signal.minimum))),
+            ("maximum", _float(float(signal.maximum))),
+        ]
+    low, high = signal.raw_range
+    if kind is Kind.PHYSICAL:
+        arguments += [
+            ("factor", _float(float(signal.factor))),
+            ("offset", _float(float(signal.offset))),
+            ("minimum", _float(_physical(signal, low))),
+            ("maximum", _float(_physical(signal, high))),
+        ]
+    else:
+        if kind is Kind.LABELLED and signal.value_table:
+            codes = [code.value for code in signal.value_table.codes]
+            low, high = min(low, *codes), max(high, *codes)
+        arguments += [("minimum", str(low)), ("maximum", str(high))]
+    if states := _states(signal):
+        inner = ", ".join(f"{code}: SignalState.{state}" for code, state in states.items())
+        arguments.append(("states", f"{{{inner}}}"))
+    if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
+        arguments.append(("labels", f"enums.{labels_name(signal.value_table)}"))
+    return arguments
+
+
+def _enum_name(signal: Signal) -> str:
+    return signal.value_table.name if signal.value_table else ""
+
+
+def labels_name(table: ValueTable) -> str:
+    """What the labels of a value table are called beside its enum."""
+    return "".join(f"_{c}" if c.isupper() and i else c for i, c in enumerate(table.name)).upper()
+
+
+def code_table_name(signal: Signal) -> str:
+    """What the decoder looks codes up in; raw values of other lengths have others."""
+    table = signal.value_table
+    sign = "_SIGNED" if signal.signed else ""
+    return f"_{labels_name(table)}_{signal.length}{sign}" if table else ""
+
+
+def has_short_table(signal: Signal) -> bool:
+    """Whether its decoder looks up every raw value in a tuple, which has no negative places."""
+    return signal.length <= _TABLE_BITS and not signal.signed
+
+
+def members(table: ValueTable) -> dict[int, str]:
+    """The members of the enum of a value table by their codes."""
+    return member_names([(code.value, code.english) for code in table.codes])

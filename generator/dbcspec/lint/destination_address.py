@@ -1,0 +1,29 @@
+"""Rule destination-address: a J1939 message to one address is received by the node that has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dbcspec.lint.j1939 import GLOBAL_ADDRESS, addresses, destination, shown
+from dbcspec.lint.places import Places
+from dbcspec.lint.rule import Found, Rule, Subject
+
+
+def _check(subject: Subject) -> Iterator[Found]:
+    places = Places(subject)
+    known = {node.name: addresses(node) for node in subject.protocol.nodes}
+    for message in subject.protocol.messages:
+        heard_at = frozenset[int]().union(*(known.get(each, ()) for each in message.receivers))
+        address = destination(message)
+        if not heard_at or not message.extended or address in heard_at | {GLOBAL_ADDRESS}:
+            continue
+        text = (
+            f"{message.name} 0x{message.frame_id:X} goes to 0x{address:02X}, but "
+            f"{', '.join(message.receivers)}, which receives it, has {shown(heard_at)}: correct one"
+        )
+        yield Found(places.message(message, "id"), message.name, text, message.name)
+
+
+RULE = Rule(
+    "destination-address", "a J1939 message to one address is received by who has it", _check
+)

@@ -1,0 +1,281 @@
+"""What cantools has read to the model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import PurePath
+
+from cantools.database.can import Database
+from cantools.database.can import Message as CantoolsMessage
+from cantools.database.can import Node as CantoolsNode
+from cantools.database.can import Signal as CantoolsSignal
+
+from dbcspec import model
+from dbcspec.errors import Location, ReadError
+from dbcspec.layout import float_limits
+from dbcspec.naming import field_name, shared_prefix
+from dbcspec.read.value_tables import ValueTables, code_labelled, codes_of
+
+INVALID_LABELS = frozenset(
+    {"signal invalid", "invalid", "sna", "signal not available", "not available", "信号无效"}
+)
+"""Labels, in small letters, of the code that says that there is no valid value."""
+
+ABNORMAL_LABELS = frozenset({"abnormal"})
+"""Labels, in small letters, of the code that says that the value is abnormal."""
+
+_NOBODY = "Vector__XXX"
+_J1939 = "J1939PG"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Labels:
+    """The labels, in small letters, of codes that are no values."""
+
+    invalid: frozenset[str] = INVALID_LABELS
+    abnormal: frozenset[str] = ABNORMAL_LABELS
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """Where a message and its signals, in their order, stand."""
+
+    message: Location
+    signals: Sequence[Location]
+    short_names: Sequence[str] = ()
+    """The names of the signals in the file, where the attributes give longer ones."""
+
+
+def to_protocol(
+    database: Database, file: str, places: Sequence[Places], labels: Labels
+) -> model.Protocol:
+    """The model of a database; ``places`` has those of its messages, in their order.
+
+    ``file`` is what errors call it; its stem is the protocol's name where the file has none.
+    Raises `ReadError` for numbers that no signal can have.
+    """
+    builder = _Builder(database, file, labels)
+    return builder.protocol(places)
+
+
+class _Builder:
+    def __init__(self, database: Database, file: str, labels: Labels) -> None:
+        self._database = database
+        self._file = file
+        self._labels = labels
+        self._defined = dict(database.dbc.attribute_definitions) if database.dbc else {}
+        named = database.dbc.value_tables if database.dbc else {}
+        self._value_tables = ValueTables({name: codes_of(table) for name, table in named.items()})
+
+    def protocol(self, places: Sequence[Places]) -> model.Protocol:
+        database = self._database
+        bus = next(iter(database.buses), None)
+        named = (bus.name if bus else "") or PurePath(self._file).stem
+        english, title = _texts(bus.comment if bus else None)
+        nodes = tuple(self._node(node) for node in database.nodes)
+        messages = tuple(
+            self._message(message, place)
+            for message, place in zip(database.messages, places, strict=True)
+        )
+        return model.Protocol(
+            name=named,
+            title=title,
+            english=english,
+            frame_format=self._frame_format(messages),
+            nodes=nodes,
+            buses=tuple(
+                model.Bus(
+                    name=bus.name or named,
+                    bit_rate=int(bus.baudrate),
+                    nodes=tuple(node.name for node in nodes),
+                )
+                for bus in database.buses
+                if bus.baudrate
+            ),
+            messages=messages,
+            value_tables=self._value_tables.all(),
+            carries=self._carries(messages),
+        )
+
+    def _carries(self, messages: Sequence[model.Message]) -> frozenset[model.Aspect]:
+        aspect = model.Aspect
+        signals = [signal for message in self._database.messages for signal in message.signals]
+        comments = [
+            *(message.comment() + message.title for message in messages),
+            *(signal.english + signal.title for message in messages for signal in message.signals),
+        ]
+        said = {
+            aspect.PERIODS: "GenMsgCycleTime" in self._defined
+            or any(message.cycle_time for message in self._database.messages),
+            aspect.START_VALUES: "GenSigStartValue" in self._defined
+            or any(signal.raw_initial is not None for signal in signals),
+            aspect.COMMENTS: any(comments),
+            aspect.REFERENCES: "SpecReference" in self._defined,
+            aspect.ADDRESSES: "NmStationAddress" in self._defined,
+            aspect.VALUE_TABLE_NAMES: self._value_tables.named,
+        }
+        return frozenset(each for each, is_said in said.items() if is_said)
+
+    def _frame_format(self, messages: Sequence[model.Message]) -> str:
+        """One for the whole file: the model has no other."""
+        if any(message.protocol == "j1939" for message in self._database.messages):
+            return _J1939
+        extended = any(message.extended for message in messages) or not messages
+        return "ExtendedCAN" if extended else "StandardCAN"
+
+    def _node(self, node: CantoolsNode) -> model.Node:
+        english, title = _texts(node.comment)
+        address = _attribute(node, "NmStationAddress")
+        return model.Node(
+            name=node.name,
+            title=title,
+            english=english,
+            address=int(address) if isinstance(address, int | float) else None,
+        )
+
+    def _message(self, message: CantoolsMessage, places: Places) -> model.Message:
+        english, title = _texts(message.comment)
+        period = round(message.cycle_time or 0)
+        prefixes = (f"{message.name}_", shared_prefix([each.name for each in message.signals]))
+        # cantools gives signals their long names, but leaves the short one where they select.
+        long = dict(zip(places.short_names, (each.name for each in message.signals), strict=False))
+        fields = _unique(field_name(signal.name, prefixes) for signal in message.signals)
+        return model.Message(
+            name=message.name,
+            title=title,
+            english=english,
+            frame_id=message.frame_id,
+            extended=message.is_extended_frame,
+            length=message.length,
+            sender=next((name for name in message.senders if name != _NOBODY), ""),
+            period=period if period > 0 else None,
+            send_type=_send_type(message, period),
+            signals=tuple(
+                self._signal(signal, python_name, place, long)
+                for signal, python_name, place in zip(
+                    message.signals, fields, places.signals, strict=True
+                )
+            ),
+            reference=str(_attribute(message, "SpecReference") or ""),
+            errata=tuple(str(_attribute(message, "SpecErrata") or "").split()),
+            where=places.message,
+        )
+
+    def _signal(
+        self, signal: CantoolsSignal, python_name: str, where: Location, long: Mapping[str, str]
+    ) -> model.Signal:
+        english, title = _texts(signal.comment)
+        codes = codes_of(signal.choices or {})
+        factor, offset = self._scaling(signal, where)
+        selector = signal.multiplexer_signal or ""
+        low, high = _limits(signal, factor, offset, where)
+        return model.Signal(
+            name=signal.name,
+            title=title,
+            english=english,
+            start=signal.start,
+            length=signal.length,
+            byte_order=(
+                model.ByteOrder.INTEL
+                if signal.byte_order == "little_endian"
+                else model.ByteOrder.MOTOROLA
+            ),
+            # A float has a sign, whatever its line says.
+            signed=signal.is_signed or signal.conversion.is_float,
+            is_float=signal.conversion.is_float,
+            factor=factor,
+            offset=offset,
+            minimum=low,
+            maximum=high,
+            unit=signal.unit or "",
+            value_table=self._value_tables.of(signal.name, codes) if codes else None,
+            invalid_code=code_labelled(codes, self._labels.invalid),
+            abnormal_code=code_labelled(codes, self._labels.abnormal),
+            start_value=self._start_value(signal),
+            receivers=tuple(name for name in signal.receivers if name != _NOBODY),
+            is_selector=signal.is_multiplexer,
+            multiplexer=long.get(selector, selector) if signal.multiplexer_ids else "",
+            selectors=tuple(sorted(signal.multiplexer_ids or ())),
+            python_name=python_name,
+            reference=str(_attribute(signal, "SpecReference") or ""),
+            errata=tuple(str(_attribute(signal, "SpecErrata") or "").split()),
+            where=where,
+        )
+
+    def _scaling(self, signal: CantoolsSignal, where: Location) -> tuple[Decimal, Decimal]:
+        factor = _number(signal.conversion.scale, signal, where)
+        if not factor:
+            raise ReadError(f"{where}: {signal.name}: its factor is 0")
+        return factor, _number(signal.conversion.offset, signal, where)
+
+    def _start_value(self, signal: CantoolsSignal) -> int:
+        """The raw value; what is no whole number, as floats may have, is cut off."""
+        value: object = signal.raw_initial
+        if value is None and "GenSigStartValue" in self._defined:
+            value = self._defined["GenSigStartValue"].default_value
+        finite = isinstance(value, int | float) and math.isfinite(value)
+        return int(value) if finite and isinstance(value, int | float) else 0
+
+
+def _texts(comment: str | None) -> tuple[str, str]:
+    """A comment as English text and as title in the language of the standard.
+
+    Text with Chinese, Japanese or Korean characters is a title, any other counts as English.
+    """
+    text = (comment or "").strip()
+    is_title = any("\u2e80" <= letter <= "\ud7a3" for letter in text)
+    return ("", text) if is_title else (text, "")
+
+
+def _attribute(item: CantoolsNode | CantoolsMessage | CantoolsSignal, name: str) -> object:
+    """The value of an attribute of a node, message or signal, None where it has none."""
+    attributes = item.dbc.attributes if item.dbc else {}
+    return attributes[name].value if name in attributes else None
+
+
+def _send_type(message: CantoolsMessage, period: int) -> model.SendType:
+    """By the word of GenMsgSendType, else by whether there is a period."""
+    word = (message.send_type or "").lower()
+    if not word:
+        return model.SendType.CYCLIC if period > 0 else model.SendType.EVENT
+    if "ifactive" in word:
+        return model.SendType.IF_ACTIVE
+    return model.SendType.CYCLIC if word.startswith("cyclic") else model.SendType.EVENT
+
+
+def _number(value: float, signal: CantoolsSignal, where: Location) -> Decimal:
+    number = Decimal(repr(value))
+    if not number.is_finite():
+        raise ReadError(f"{where}: {signal.name}: {value} is no finite number")
+    return number
+
+
+def _limits(
+    signal: CantoolsSignal, factor: Decimal, offset: Decimal, where: Location
+) -> tuple[Decimal, Decimal]:
+    """Minimum and maximum; what the file leaves open is what the bits can hold."""
+    if signal.conversion.is_float:
+        low, high = float_limits(signal.length)
+    else:
+        values = 1 << signal.length
+        raw = -(values // 2) if signal.is_signed else 0
+        low, high = sorted((raw * factor + offset, (raw + values - 1) * factor + offset))
+    return (
+        low if signal.minimum is None else _number(signal.minimum, signal, where),
+        high if signal.maximum is None else _number(signal.maximum, signal, where),
+    )
+
+
+def _unique(names: Iterable[str]) -> Iterator[str]:
+    """The names, repeated ones with a number."""
+    taken: set[str] = set()
+    for name in names:
+        free, count = name, 1
+        while free in taken:
+            count += 1
+            free = f"{name}_{count}"
+        taken.add(free)
+        yield free

@@ -1,0 +1,112 @@
+"""DBC files, and the other formats that cantools reads, to the model."""
+
+from __future__ import annotations
+
+import logging
+import re
+from pathlib import Path
+
+import cantools.database
+from cantools.database.can import Database
+from cantools.database.errors import UnsupportedDatabaseFormatError
+
+from dbcspec.errors import Location, ReadError
+from dbcspec.model import Protocol
+from dbcspec.read.database import Labels, Places, to_protocol
+from dbcspec.read.dbc_text import UNASSIGNED, DbcText
+from dbcspec.read.encoding import LARGEST_FILE, read_text
+
+FORMATS = {".dbc": "dbc", ".kcd": "kcd", ".sym": "sym", ".arxml": "arxml"}
+"""Ends of file names, in small letters, and what cantools calls the format."""
+
+_WHERE = re.compile(r'Invalid syntax at line (\d+), column (\d+): "?(.*)', re.DOTALL)
+_LONGEST_EXCERPT = 60
+
+# The linter says what is odd in a file; cantools would say it again on standard error.
+logging.getLogger("cantools").addHandler(logging.NullHandler())
+
+
+def read_dbc(
+    path: Path,
+    encoding: str | None = None,
+    *,
+    shown_as: str | None = None,
+    largest: int = LARGEST_FILE,
+    labels: Labels | None = None,
+) -> Protocol:
+    """Read a DBC file, sound or not: overlaps and signals outside their message are kept.
+
+    Without ``encoding`` it is found out, see `dbcspec.read.encoding`. ``shown_as`` is what errors
+    and locations call the file, ``largest`` the bytes it may have, ``labels`` which labels mean
+    that a code is no value. A range of [0|0] counts as not given. Of several senders the first is
+    kept. Raises `ReadError`.
+    """
+    name = shown_as or str(path)
+    source = DbcText(read_text(path, encoding, shown_as=name, largest=largest), name)
+    database = _load(f"{source.mended()}\n{_END}", "dbc", name)
+    places = [
+        Places(
+            Location(name, place.line),
+            [Location(name, line) for _, line in place.signals],
+            [short for short, _ in place.signals],
+        )
+        for place in source.places
+        if place.name != UNASSIGNED
+    ]
+    return to_protocol(database, name, places, labels or Labels())
+
+
+def read_any(
+    path: Path,
+    encoding: str | None = None,
+    *,
+    shown_as: str | None = None,
+    largest: int = LARGEST_FILE,
+    labels: Labels | None = None,
+) -> Protocol:
+    """Read a file of any format in `FORMATS`, by the end of its name; see `read_dbc`.
+
+    Only in DBC files messages and signals have their lines. Raises `ReadError`.
+    """
+    name = shown_as or str(path)
+    format_ = FORMATS.get(path.suffix.lower())
+    if format_ is None:
+        known = ", ".join(FORMATS)
+        raise ReadError(f"{name}: cannot read {path.suffix or 'this'} files; known: {known}")
+    if format_ == "dbc":
+        return read_dbc(path, encoding, shown_as=name, largest=largest, labels=labels)
+    text = read_text(path, encoding, shown_as=name, largest=largest)
+    database = _load(text, format_, name)
+    places = [
+        Places(Location(name), [Location(name)] * len(message.signals))
+        for message in database.messages
+    ]
+    return to_protocol(database, name, places, labels or Labels())
+
+
+_END = "BS_:\n"
+"""A statement that means nothing: before the end of a file cantools forgives half a statement."""
+
+
+def _load(text: str, format_: str, name: str) -> Database:
+    try:
+        # Unsorted, as they stand: places and the order of the model depend on it.
+        database = cantools.database.load_string(text, format_, strict=False, sort_signals=None)
+    except UnsupportedDatabaseFormatError as error:
+        reason = error.e_dbc or error.e_kcd or error.e_sym or error.e_arxml
+        raise ReadError(_reason(str(reason), text, format_, name)) from None
+    if not isinstance(database, Database):
+        raise ReadError(f"{name}: describes diagnostics, not CAN messages")
+    return database
+
+
+def _reason(reason: str, text: str, format_: str, name: str) -> str:
+    """What cantools says, as one line with its place."""
+    found = _WHERE.match(reason)
+    if not found:
+        return f"{name}: not read as {format_.upper()}: {' '.join(reason.split())}"
+    line = int(found[1])
+    if text.endswith(_END) and line > text.count("\n") - 1:
+        return f"{name}: the last statement is cut off"
+    excerpt = " ".join(found[3].replace(">>!<<", "").rstrip('"').split())[:_LONGEST_EXCERPT]
+    return f"{Location(name, line, int(found[2]))}: not understood: {excerpt}"

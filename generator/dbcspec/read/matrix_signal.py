@@ -1,0 +1,218 @@
+"""A row of the matrix to a signal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+
+from dbcspec.layout import float_limits
+from dbcspec.model import ByteOrder, Code, Signal, ValueTable
+from dbcspec.read.matrix_grid import CellValue
+from dbcspec.read.matrix_headings import normal
+from dbcspec.read.matrix_row import Row
+from dbcspec.read.matrix_values import (
+    CellError,
+    codes_of,
+    decimal_of,
+    multiplexing_of,
+    names_of,
+    raw_of,
+    text_of,
+    whole_of,
+)
+
+_MOST_BITS = 4_096
+_MOST_START = 8 * 65_536
+_NO_CODES: dict[int, str] = {}
+_NOT_MULTIPLEXED: tuple[bool, tuple[int, ...], str] = (False, (), "")
+
+
+class SharedTables:
+    """Gives signals with the same codes and the same name of a table the same `ValueTable`."""
+
+    def __init__(self) -> None:
+        self._by_name: dict[str, ValueTable] = {}
+        self._unnamed: dict[tuple[Code, ...], ValueTable] = {}
+
+    def of(self, signal: str, name: str, codes: tuple[Code, ...]) -> ValueTable | None:
+        """The table; one without a name, or whose name has other codes, is called as the signal."""
+        if not codes:
+            return None
+        if name and self._by_name.setdefault(name, ValueTable(name, codes)).codes == codes:
+            return self._by_name[name]
+        if codes not in self._unnamed:
+            free, count = signal, 1
+            while free in self._by_name:
+                count += 1
+                free = f"{signal}_{count}"
+            self._unnamed[codes] = self._by_name[free] = ValueTable(free, codes)
+        return self._unnamed[codes]
+
+    def all(self) -> tuple[ValueTable, ...]:
+        """Every table, in order of appearance."""
+        return tuple(self._by_name.values())
+
+
+@dataclass(slots=True)
+class SignalDraft:
+    """A signal's row, and the rows below it that go on with its codes."""
+
+    row: Row
+    senders: list[str]
+    receivers: list[str]
+    more: list[Row] = field(default_factory=list[Row])
+
+    def signal(self, tables: SharedTables) -> Signal:
+        """Read all cells; what cannot be read becomes a fault of the sheet."""
+        row = self.row
+        name = row.name("signal_name")
+        length = self._needed("length", 1, _MOST_BITS)
+        signed, is_float = row.read("data_type", _data_type, (False, False))
+        factor = row.read("factor", decimal_of, None)
+        if factor == 0:
+            row.fault("factor", "a resolution of 0 loses every value")
+            factor = None
+        factor = Decimal(1) if factor is None else factor
+        offset = row.read("offset", decimal_of, None) or Decimal(0)
+        raw = {
+            key: self._raw(key, length, signed=signed)
+            for key in ("raw_minimum", "raw_maximum", "initial", "invalid", "abnormal")
+        }
+        scaled = [
+            None if (limit := raw[key]) is None else limit * factor + offset
+            for key in ("raw_minimum", "raw_maximum")
+        ]
+        low, high = _limits(length, factor, offset, signed=signed, is_float=is_float)
+        minimum = row.read("minimum", decimal_of, None)
+        maximum = row.read("maximum", decimal_of, None)
+        multiplexing = row.read("multiplexing", _multiplexing, _NOT_MULTIPLEXED)
+        byte_order, start = self._place(length)
+        return Signal(
+            name=name,
+            title=row.text("title"),
+            english=row.text("english"),
+            start=start,
+            length=length,
+            byte_order=byte_order,
+            signed=signed,
+            is_float=is_float,
+            factor=factor,
+            offset=offset,
+            minimum=_first(minimum, scaled[0], low),
+            maximum=_first(maximum, scaled[1], high),
+            unit=row.text("unit"),
+            value_table=tables.of(
+                name, row.name("value_table"), self._codes(length, signed=signed)
+            ),
+            invalid_code=raw["invalid"],
+            abnormal_code=raw["abnormal"],
+            start_value=raw["initial"] or 0,
+            receivers=tuple(dict.fromkeys([*self.receivers, *names_of(row.text("receivers"))])),
+            is_selector=multiplexing[0],
+            multiplexer=multiplexing[2],
+            selectors=multiplexing[1],
+            reference=row.text("reference"),
+            errata=names_of(row.text("errata")),
+            where=row.where,
+        )
+
+    def _needed(self, key: str, low: int, high: int) -> int:
+        before = len(self.row.sheet.faults)
+        value = self.row.read(key, lambda cell: whole_of(cell, low, high), None)
+        if value is None and len(self.row.sheet.faults) == before:
+            what = {"length": "length", "start_bit": "start bit"}[key]
+            self.row.fault(key, f"signal {self.row.name('signal_name')} has no {what}")
+        return low if value is None else value
+
+    def _raw(self, key: str, length: int, *, signed: bool) -> int | None:
+        hexadecimal = self.row.is_hex(key)
+        return self.row.read(
+            key,
+            lambda cell: raw_of(cell, length=length, signed=signed, hexadecimal=hexadecimal),
+            None,
+        )
+
+    def _place(self, length: int) -> tuple[ByteOrder, int]:
+        """Byte order, and the start bit as DBC files count it."""
+        row = self.row
+        start = self._needed("start_bit", 0, _MOST_START)
+        if not row.sheet.has("byte_order"):
+            return ByteOrder.INTEL, start
+        order, from_lsb = row.read("byte_order", _byte_order, (ByteOrder.INTEL, False))
+        if order is ByteOrder.MOTOROLA and from_lsb:
+            start = _most_significant(start, length)
+            if start < 0:
+                row.fault("start_bit", "the signal would begin before the message")
+        return order, max(0, start)
+
+    def _codes(self, length: int, *, signed: bool) -> tuple[Code, ...]:
+        printed = self._labels("codes", length, signed=signed)
+        english = self._labels("english_codes", length, signed=signed)
+        labels = {**english, **printed}
+        return tuple(
+            Code(value, labels[value], english.get(value, labels[value]))
+            for value in sorted(labels)
+        )
+
+    def _labels(self, key: str, length: int, *, signed: bool) -> Mapping[int, str]:
+        codes: dict[int, str] = {}
+        for row in (self.row, *self.more):
+
+            def read(cell: CellValue) -> dict[int, str]:
+                return codes_of(text_of(cell), length=length, signed=signed)
+
+            found = row.read(key, read, _NO_CODES)
+            if twice := codes.keys() & found:
+                row.fault(key, f"code {min(twice)} stands here twice")
+            codes |= found
+        return codes
+
+
+def _first(*values: Decimal | None) -> Decimal:
+    return next(value for value in values if value is not None)
+
+
+def _limits(
+    length: int, factor: Decimal, offset: Decimal, *, signed: bool, is_float: bool
+) -> tuple[Decimal, Decimal]:
+    """What the bits can hold, for a range that is not given."""
+    if is_float:
+        return float_limits(length)
+    values = 1 << length
+    raw = -(values // 2) if signed else 0
+    low, high = sorted((raw * factor + offset, (raw + values - 1) * factor + offset))
+    return low, high
+
+
+def _data_type(cell: CellValue) -> tuple[bool, bool]:
+    """Whether it is signed, whether it is a float; nothing means unsigned."""
+    text = normal(text_of(cell)).lower().replace(" ", "")
+    if any(word in text for word in ("float", "double", "ieee", "single", "浮点")):
+        return "unsigned" not in text, True
+    if not text or text == "+" or "无符号" in text or text.startswith(("u", "bool", "enum")):
+        return False, False
+    if text == "-" or "有符号" in text or text.startswith(("signed", "sint", "int", "s")):
+        return True, False
+    raise CellError(f"expected Unsigned, Signed or Float, not {text!r}")
+
+
+def _byte_order(cell: CellValue) -> tuple[ByteOrder, bool]:
+    """The byte order, and whether start bits are those of the least significant bit."""
+    text = normal(text_of(cell)).lower()
+    if any(word in text for word in ("intel", "little", "小端")):
+        return ByteOrder.INTEL, True
+    if any(word in text for word in ("motorola", "big", "大端")):
+        return ByteOrder.MOTOROLA, "lsb" in text
+    raise CellError(f"expected Intel, Motorola MSB or Motorola LSB, not {text!r}")
+
+
+def _most_significant(bit: int, length: int) -> int:
+    """From the least significant bit of a Motorola signal up to its most significant one."""
+    for _ in range(length - 1):
+        bit = bit - 15 if bit % 8 == 7 else bit + 1
+    return bit
+
+
+def _multiplexing(cell: CellValue) -> tuple[bool, tuple[int, ...], str]:
+    return multiplexing_of(text_of(cell))

@@ -1,0 +1,51 @@
+"""The codes of signals to value tables, shared and named."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from dbcspec.model import Code, ValueTable
+
+Codes = tuple[tuple[int, str], ...]
+"""Raw values and their labels, ascending."""
+
+
+class ValueTables:
+    """Shares equal codes: under the name that the file gives them, else the first signal's."""
+
+    def __init__(self, named: Mapping[str, Codes]) -> None:
+        # Where two tables have the same codes, no file says which of them a signal has.
+        self.named = bool(named) and len(set(named.values())) == len(named)
+        self._tables = {name: _table(name, codes) for name, codes in named.items()}
+        self._by_codes: dict[Codes, ValueTable] = {}
+        for name, codes in named.items():
+            self._by_codes.setdefault(codes, self._tables[name])
+
+    def of(self, signal: str, codes: Codes) -> ValueTable:
+        """The value table of a signal that has these codes."""
+        if codes not in self._by_codes:
+            name, count = signal, 1
+            while name in self._tables:
+                count += 1
+                name = f"{signal}_{count}"
+            self._tables[name] = self._by_codes[codes] = _table(name, codes)
+        return self._by_codes[codes]
+
+    def all(self) -> tuple[ValueTable, ...]:
+        """All value tables, those that the file names first."""
+        return tuple(self._tables.values())
+
+
+def _table(name: str, codes: Codes) -> ValueTable:
+    return ValueTable(name, tuple(Code(code, text, text) for code, text in codes))
+
+
+def codes_of(choices: Mapping[int, object]) -> Codes:
+    """The choices that cantools has read."""
+    return tuple(sorted((int(code), str(label)) for code, label in choices.items()))
+
+
+def code_labelled(codes: Codes, labels: frozenset[str]) -> int | None:
+    """The one code with such a label; of several none is surely the one."""
+    found = [code for code, label in codes if label.strip().lower() in labels]
+    return found[0] if len(found) == 1 else None

@@ -1,0 +1,54 @@
+"""Findings as one HTML file that needs no network and no script."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import jinja2
+
+from dbcspec.report.item import LEVELS, Report
+from dbcspec.report.texts import (
+    MEANINGS,
+    WHOLE,
+    broken,
+    casualties,
+    counted,
+    details,
+    grouped,
+    purposes,
+    visible,
+)
+
+
+@cache
+def _template() -> jinja2.Template:
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("dbcspec.report", "templates"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=True,
+    )
+    environment.filters["visible"] = visible
+    return environment.get_template("report.html.j2")
+
+
+def to_html(report: Report) -> str:
+    """A page for phone, desktop and paper, light and dark, every text of it escaped.
+
+    Boxes that hide the findings of a level work by style sheet alone.
+    """
+    return _template().render(
+        report=report,
+        groups=grouped(report.items),
+        counts=report.counts(),
+        levels=LEVELS,
+        meanings=MEANINGS,
+        whole=WHOLE,
+        counted=counted(report),
+        casualties=casualties(report),
+        broken=broken,
+        details=details,
+        purposes=purposes(report),
+    )

@@ -1,0 +1,50 @@
+"""Findings for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dbcspec.report.item import Item, Report
+from dbcspec.report.texts import WHOLE, broken, casualties, counted, grouped, named, told, visible
+
+_STYLES = {"error": "1;31", "wire": "1;31", "source": "33", "additive": "32", "cosmetic": "36"}
+_BOLD = "1"
+_DIM = "2"
+_LONGEST = 400
+_WIDEST_LEVEL = 10
+
+
+def to_text(report: Report, *, colour: bool = False, ascii_only: bool = False) -> str:
+    """The findings message by message, their counts at the end.
+
+    ``colour`` adds ANSI sequences; ``ascii_only`` makes arrows of ASCII, for terminals without
+    an arrow. A long value is cut; the formats for machines have the whole of it.
+    """
+    lines = [_painted(visible(report.title), _BOLD, colour=colour), ""]
+    groups = grouped(report.items)
+    for group, items in groups.items():
+        if len(groups) > 1 or group:
+            lines.append(_painted(visible(group) or WHOLE.capitalize(), _BOLD, colour=colour))
+        for item in items:
+            lines += _finding(item, colour=colour)
+        lines.append("")
+    lines.append("; ".join(filter(None, (counted(report), casualties(report)))))
+    text = "\n".join(lines) + "\n"
+    return text.replace("→", "->") if ascii_only else text
+
+
+def _finding(item: Item, *, colour: bool) -> Iterator[str]:
+    level = _painted(item.level.ljust(_WIDEST_LEVEL), _STYLES[item.level], colour=colour)
+    yield f"  {level}{named(item)}{told(item, longest=_LONGEST)}"
+    whom = broken(item)
+    below = (
+        visible(str(item.where)) if item.where.path else "",
+        visible(item.rule),
+        f"breaks {whom}" if whom else "",
+        f"[{item.fingerprint}]",
+    )
+    yield " " * (2 + _WIDEST_LEVEL) + _painted("  ".join(filter(None, below)), _DIM, colour=colour)
+
+
+def _painted(text: str, style: str, *, colour: bool) -> str:
+    return f"\x1b[{style}m{text}\x1b[0m" if colour else text

@@ -1,0 +1,223 @@
+"""Protocols that Hypothesis builds, and every way to change a model in one place."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from decimal import Decimal
+from enum import Enum
+from typing import Any
+
+from hypothesis import strategies as st
+
+from dbcspec.model import (
+    Bus,
+    ByteOrder,
+    Checksum,
+    Code,
+    Counter,
+    Erratum,
+    Message,
+    Node,
+    Protocol,
+    Request,
+    SendType,
+    Signal,
+    Transfer,
+    ValueTable,
+)
+
+NOT_COMPARED = {
+    "Protocol.name": "what a file is called is no promise",
+    "Protocol.value_tables": "a value table is spoken of where a signal has it",
+    "Protocol.carries": "tells what may be compared",
+}
+
+NODES = ("ECU", "HMI", "LOG")
+texts = st.sampled_from(["", "one", "two", "eins"])
+marks = st.sampled_from([(), ("E1",), ("E1", "E2")])
+numbers = st.integers(-50, 50).map(Decimal)
+codes = st.lists(st.integers(0, 20), min_size=1, max_size=4, unique=True).flatmap(
+    lambda values: st.tuples(
+        *(st.builds(Code, st.just(2 * value), texts, texts) for value in sorted(values))
+    )
+)
+tables = st.builds(ValueTable, st.sampled_from(["State", "Mode"]), codes)
+node_lists = st.lists(st.sampled_from(NODES), max_size=3, unique=True).map(tuple)
+
+
+def signals(name: str) -> st.SearchStrategy[Signal]:
+    """A signal of more than one byte: within one byte both byte orders may be the same wire."""
+    return st.builds(
+        Signal,
+        name=st.just(name),
+        title=texts,
+        english=texts,
+        start=st.integers(0, 40),
+        length=st.integers(9, 16),
+        byte_order=st.sampled_from(ByteOrder),
+        signed=st.booleans(),
+        is_float=st.booleans(),
+        factor=numbers.filter(bool),
+        offset=numbers,
+        minimum=numbers,
+        maximum=numbers,
+        unit=texts,
+        value_table=st.none() | tables,
+        invalid_code=st.none() | st.integers(0, 40),
+        abnormal_code=st.none() | st.integers(0, 40),
+        start_value=st.integers(0, 40),
+        receivers=node_lists,
+        is_selector=st.booleans(),
+        multiplexer=texts,
+        selectors=st.sampled_from([(), (1,), (1, 2)]),
+        python_name=texts,
+        reference=texts,
+        errata=marks,
+    )
+
+
+def messages(number: int) -> st.SearchStrategy[Message]:
+    """A message of up to three signals."""
+    names = [f"M{number}_{letter}" for letter in "ABC"]
+    carriers = st.sampled_from(names)
+    return st.builds(
+        Message,
+        name=st.just(f"M{number}"),
+        # Every model is in two languages, as every spec is.
+        title=st.just("eins"),
+        english=st.just("one"),
+        frame_id=st.just(16 * number),
+        extended=st.booleans(),
+        length=st.integers(0, 8),
+        sender=st.sampled_from(NODES),
+        period=st.none() | st.integers(1, 100),
+        send_type=st.sampled_from(SendType),
+        condition=texts,
+        signals=st.integers(0, 3).flatmap(lambda count: st.tuples(*map(signals, names[:count]))),
+        checksum=st.none()
+        | st.builds(
+            Checksum,
+            signal=carriers,
+            algorithm=texts,
+            first_byte=st.integers(0, 7),
+            last_byte=st.integers(0, 7),
+        ),
+        counter=st.none() | st.builds(Counter, signal=carriers, modulus=st.integers(1, 16)),
+        reference=texts,
+        errata=marks,
+    )
+
+
+def nodes(name: str) -> st.SearchStrategy[Node]:
+    """A node of that name."""
+    return st.builds(
+        Node,
+        name=st.just(name),
+        title=texts,
+        english=texts,
+        address=st.none() | st.integers(0, 255),
+        other_addresses=st.sampled_from([(), (1,), (1, 2)]),
+        errata=marks,
+    )
+
+
+transfers = st.builds(
+    Transfer,
+    name=st.just("text"),
+    english=texts,
+    messages=st.sampled_from([("M1",), ("M1", "M2")]),
+    items=st.sampled_from([(), ("M1_A",), ("M1_A", "M1_B")]),
+    count=st.none() | st.integers(0, 9),
+    count_signal=texts,
+    frame_number=texts,
+    group=texts,
+    groups_signal=texts,
+    length_signal=texts,
+    numbered_within_group=st.booleans(),
+    fill=st.none() | st.integers(0, 9),
+)
+requests = st.builds(
+    Request,
+    signal=st.just("M1_A"),
+    code=st.integers(0, 3),
+    withdraw=st.none() | st.integers(0, 3),
+    answers=st.sampled_from([("M2",), ("M2", "M3")]),
+)
+errata = st.builds(
+    Erratum,
+    id=st.just("E1"),
+    kind=texts,
+    place=texts,
+    printed=texts,
+    reading=texts,
+    because=texts,
+)
+buses = st.builds(
+    Bus,
+    name=st.just("body"),
+    title=texts,
+    english=texts,
+    bit_rate=st.integers(1, 9),
+    nodes=node_lists,
+    errata=marks,
+)
+protocols = st.builds(
+    Protocol,
+    name=st.just("model"),
+    number=texts,
+    title=texts,
+    english=texts,
+    edition=texts,
+    frame_format=st.sampled_from(["ExtendedCAN", "J1939PG"]),
+    nodes=st.integers(0, 3).flatmap(lambda count: st.tuples(*map(nodes, NODES[:count]))),
+    buses=st.just(()) | st.tuples(buses),
+    messages=st.integers(2, 3).flatmap(
+        lambda count: st.tuples(*map(messages, range(1, count + 1)))
+    ),
+    transfers=st.just(()) | st.tuples(transfers),
+    requests=st.just(()) | st.tuples(requests),
+    errata=st.just(()) | st.tuples(errata),
+)
+
+
+def mutations(value: Any, place: str = "") -> Iterator[tuple[str, Any]]:
+    """Every change in one place below a value: the name of the place and the changed whole."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        for part in dataclasses.fields(value):
+            name = f"{type(value).__name__}.{part.name}"
+            if part.compare and name not in NOT_COMPARED:
+                for where, changed in mutations(getattr(value, part.name), name):
+                    yield where, dataclasses.replace(value, **{part.name: changed})
+        return
+    if isinstance(value, tuple):
+        yield from _tuple_mutations(value, place)
+        return
+    yield from ((place, changed) for changed in _others(value, place))
+
+
+def _tuple_mutations(value: tuple[Any, ...], place: str) -> Iterator[tuple[str, Any]]:
+    if value:
+        yield f"{place} without its last", value[:-1]
+    if len(value) > 1 and place not in ("ValueTable.codes", "Signal.selectors", "Request.answers"):
+        yield f"{place} reversed", value[::-1]
+    for index, item in enumerate(value):
+        for where, changed in mutations(item, place):
+            yield where, (*value[:index], changed, *value[index + 1 :])
+
+
+def _others(value: Any, place: str) -> list[Any]:
+    """Values that might stand in place of a single one."""
+    if place == "Protocol.frame_format":
+        return ["ExtendedCAN" if value == "J1939PG" else "J1939PG"]
+    if place in ("Signal.value_table", "Message.checksum", "Message.counter"):
+        return []
+    if isinstance(value, bool):
+        return [not value]
+    if isinstance(value, Enum):
+        return [other for other in type(value) if other is not value]
+    if isinstance(value, int):
+        return [value + 1]
+    if isinstance(value, Decimal):
+        return [value + 1 if value != -1 else Decimal(5)]
+    return [f"{value}z"] if isinstance(value, str) else [77]
