@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,9 @@ from hypothesis import settings
 from dbcspec.config import find_config
 from dbcspec.model import Protocol
 from dbcspec.project import Project, load
+
+# Many tests run commands as processes of their own: let those keep their bytecode.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 settings.register_profile(
     "repeatable", derandomize=True, database=None, deadline=None, max_examples=100

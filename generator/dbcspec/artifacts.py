@@ -12,12 +12,12 @@ from pathlib import Path
 
 from dbcspec.config import Config
 from dbcspec.emit.dbc import emit_dbc
+from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
 from dbcspec.emit.json_schema import emit_json_schemas
 from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.errors import ReadError
 from dbcspec.model import Protocol
-from dbcspec.naming import package_name
 from dbcspec.rows import DOCUMENTS
 
 _DIFF_LINES = 8
@@ -56,15 +56,10 @@ def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
 
 
 def foreign_artifacts(protocol: Protocol, name: str, runtime: str) -> dict[str, bytes]:
-    """What is generated of a protocol that is not the project's: DBC, matrix and stubs."""
+    """What is generated of a protocol that is not the project's: DBC, stubs and matrix."""
     named = dataclasses.replace(protocol, name=name)
-    made = {
-        f"{name}.dbc": emit_dbc(named).encode("utf-8"),
-        f"{name}.xlsx": emit_matrix(named),
-    }
-    for module, text in emit_stubs(named, runtime, ".").items():
-        made[f"{package_name(name)}/{module}"] = text.encode("utf-8")
-    return made
+    made = emit_foreign(named, name, runtime=runtime)
+    return {**made, f"{name}.xlsx": emit_matrix(named)}
 
 
 def write(root: Path, files: Mapping[str, bytes]) -> list[str]:

@@ -23,6 +23,7 @@ _EXAMPLES = """examples:
 
 exit status: 0 all is well, 1 findings or stale files, 2 the command could not do its work"""
 
+
 def run(arguments: Sequence[str]) -> int:
     """Run the command line with its arguments and return the exit status."""
     for stream in (sys.stdout, sys.stderr):

@@ -5,8 +5,9 @@ What the linter is asked can also stand in a TOML file of its own, for files wit
 
 from __future__ import annotations
 
+import dataclasses
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -121,6 +122,14 @@ def _options(path: Path, text: str, tables: Mapping[str, Any]) -> Options:
         waivers=tuple(_waivers(path, text, tables.get("waivers", []))),
         settings=Settings(bus_load=load, units=frozenset(_texts(path, table, "units", ()))),
     )
+
+
+def selected(options: Options, names: Sequence[str]) -> Options:
+    """The options with other rules selected; raises `ReadError` for a name that is none."""
+    for name in names:
+        if not is_rule_or_group(name):
+            raise ReadError(_no_rule(name))
+    return dataclasses.replace(options, select=tuple(names))
 
 
 def _texts(

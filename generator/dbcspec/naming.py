@@ -36,11 +36,6 @@ def snake_case(name: str) -> str:
     return f"{snake}_" if keyword.iskeyword(snake) else snake
 
 
-def package_name(name: str) -> str:
-    """A name that Python can import, from any text."""
-    return snake_case(re.sub(r"[^A-Za-z0-9_]+", "_", name))
-
-
 def shared_prefix(names: Sequence[str]) -> str:
     """The longest beginning, up to an underscore, that all names have and none consists of."""
     if len(names) < 2:

@@ -11,7 +11,8 @@ from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.model import Protocol
 from dbcspec.resolve import resolve
-from dbcspec.rows import Spec, read_spec
+from dbcspec.rows import Spec
+from dbcspec.spec_folder import read_spec
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import TypeVar
 
 from dbcspec import model
+from dbcspec.behaviour_names import unknown_names
 from dbcspec.errors import Fault, SpecError
 from dbcspec.layout import float_limits, whole_byte
 from dbcspec.naming import field_name, shared_prefix
@@ -15,6 +16,7 @@ from dbcspec.schema import Record
 from dbcspec.value_tables import ValueTables
 
 T = TypeVar("T")
+_Explained = tuple[SignalTable, SignalRow]
 
 _SEND_TYPES = {
     "Cyclic": model.SendType.CYCLIC,
@@ -43,7 +45,7 @@ class _Resolver:
         self._aliases = {
             alias: node.name for node in spec.standard.nodes for alias in (node.name, *node.aliases)
         }
-        self._rows: dict[str, list[tuple[SignalTable, SignalRow]]] = {}
+        self._rows: dict[str, list[_Explained]] = {}
         for table, row in spec.rows():
             self._rows.setdefault(row.signal, []).append((table, row))
         self._value_tables = ValueTables(spec, self.faults)
@@ -57,7 +59,7 @@ class _Resolver:
     def protocol(self, name: str) -> model.Protocol:
         standard = self._spec.standard
         messages = tuple(self._message(row) for row in self._spec.messages.messages)
-        self._check_names(messages)
+        self.faults += unknown_names(self._spec, messages)
         return model.Protocol(
             name=name,
             number=standard.number,
@@ -155,11 +157,9 @@ class _Resolver:
             return row.extended == "yes"
         return (self._spec.standard.frame_format or "ExtendedCAN") != "StandardCAN"
 
-    def _rows_of(
-        self, message: MessageRow, field: FieldRow
-    ) -> Sequence[tuple[SignalTable, SignalRow]]:
+    def _rows_of(self, message: MessageRow, field: FieldRow) -> Sequence[_Explained]:
         """The rows that explain a field: those for its message, else those for any."""
-        own = self._rows.get(f"{message.name}.{field.name}")
+        own = self._rows.get(f"{message.name}.{field.name}", ())
         return own or self._rows.get(field.name, ())
 
     def _node(self, printed: str) -> str:
@@ -182,6 +182,7 @@ class _Resolver:
         value_table = self._value_tables.of(row)
         standard = self._spec.standard
         invalid = _code_labelled(row.labels, standard.invalid_labels)
+        usual = 0 if invalid is None or filled_in else invalid
         unit = self._given(row, "unit", row.unit, "")
         marks = dict.fromkeys(
             mark for record in (field, *(row for _, row in rows)) for mark in record.marks
@@ -205,7 +206,7 @@ class _Resolver:
             value_table=value_table,
             invalid_code=invalid,
             abnormal_code=_code_labelled(row.labels, standard.abnormal_labels),
-            start_value=_initial(field, 0 if invalid is None or filled_in else invalid),
+            start_value=usual if field.initial is None else field.initial,
             receivers=tuple(map(self._node, receivers)),
             is_selector=field.selector == "yes",
             multiplexer=field.multiplexer,
@@ -261,35 +262,6 @@ class _Resolver:
                 numbered_within_group=row.numbering == "within_group",
                 fill=row.fill,
             )
-
-    def _check_names(self, messages: tuple[model.Message, ...]) -> None:
-        """Behaviour may only speak of messages and signals that there are."""
-        names = {message.name for message in messages}
-        signals = {field.name for _, field in self._spec.fields()}
-        behaviour = self._spec.behaviour
-        for rows, key, known in (
-            (behaviour.checksums, "signal", signals),
-            (behaviour.counters, "signal", signals),
-            (behaviour.requests, "signal", signals),
-            (behaviour.requests, "answers", names),
-            (behaviour.timing, "messages", names),
-            (behaviour.transfers, "messages", names),
-            *(
-                (behaviour.transfers, key, signals)
-                for key in ("items", "count_signal", "frame_number", "group", "groups_signal")
-            ),
-            (behaviour.transfers, "length_signal", signals),
-        ):
-            for row in rows:
-                value = getattr(row, key)
-                for name in (value,) if isinstance(value, str) else value:
-                    if name and name not in known:
-                        text = f"{key}: there is no {name!r}"
-                        self.faults.append(Fault(row.where_is(key), text))
-
-
-def _initial(field: FieldRow, usual: int) -> int:
-    return usual if field.initial is None else field.initial
 
 
 def _joined(title: str, part: str) -> str:

@@ -5,14 +5,12 @@ A row may lack what the print lacks; errata fill the gaps, `resolve` insists tha
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
-from pathlib import Path
 from typing import Any, ClassVar
 
-from dbcspec.errors import Fault, Location, SpecError
+from dbcspec.behaviour_rows import Behaviour
 from dbcspec.schema import (
     DECIMAL,
     INTEGER,
@@ -23,7 +21,6 @@ from dbcspec.schema import (
     TEXT,
     Kind,
     Record,
-    RecordT,
     expect_table,
     expect_text,
     key,
@@ -34,7 +31,7 @@ from dbcspec.schema import (
     raw,
     whole_number,
 )
-from dbcspec.source import Node, read_yaml
+from dbcspec.source import Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,94 +206,6 @@ class SignalTable(Record):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChecksumRow(Record):
-    """A checksum: which bytes it covers, and how."""
-
-    IDENTITY: ClassVar[str] = "signal"
-
-    signal: str = key(NAME, "the signal that carries it", required=True)
-    algorithm: str = key(NAME, "xor, or a name of its own where the standard leaves it open")
-    bytes: tuple[Decimal, Decimal] | None = key(RANGE, "first~last byte covered")
-    cite: str = key(TEXT, "where the standard says so", default="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CounterRow(Record):
-    """An alive counter: it runs 0 to modulus - 1."""
-
-    IDENTITY: ClassVar[str] = "signal"
-
-    signal: str = key(NAME, "the signal that carries it", required=True)
-    modulus: int | None = key(INTEGER, "number of values it runs through")
-    cite: str = key(TEXT, "where the standard says so", default="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TransferRow(Record):
-    """A value too long for one frame, and how it is split."""
-
-    name: str = key(NAME, "its name", required=True)
-    english: str = key(TEXT, "what it carries", default="")
-    messages: tuple[str, ...] = key(list_of(NAME), "messages, in order", required=True)
-    items: tuple[str, ...] = key(list_of(NAME), "item signals, in order", required=True)
-    count: int | None = key(INTEGER, "items in all, where fixed")
-    count_signal: str = key(NAME, "signal that tells how many items", default="")
-    frame_number: str = key(NAME, "signal that numbers the frames from 1", default="")
-    group: str = key(NAME, "signal that tells which group the frame is of", default="")
-    length_signal: str = key(NAME, "signal that tells how many items are valid", default="")
-    groups_signal: str = key(NAME, "signal that tells how many groups", default="")
-    numbering: str = key(
-        one_of("within_group", "through"), "what the frame number counts", default="through"
-    )
-    fill: int | None = key(INTEGER, "raw value of unused items")
-    cite: str = key(TEXT, "where the standard says so", default="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RequestRow(Record):
-    """A signal that asks for messages."""
-
-    IDENTITY: ClassVar[str] = "signal"
-
-    signal: str = key(NAME, "the signal that asks", required=True)
-    code: int = key(INTEGER, "the code that asks", required=True)
-    withdraw: int | None = key(INTEGER, "the code that no longer asks")
-    answers: tuple[str, ...] = key(list_of(NAME), "the messages asked for", required=True)
-    cite: str = key(TEXT, "where the standard says so", default="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TimingRow(Record):
-    """When messages are sent."""
-
-    name: str = key(NAME, "a name for the group", required=True)
-    condition: str = key(TEXT, "while or when they are sent, in English", required=True)
-    messages: tuple[str, ...] = key(list_of(NAME), "the messages", required=True)
-    cite: str = key(TEXT, "where the standard says so", default="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Padding(Record):
-    """What is sent in bits that carry no signal."""
-
-    reserved: int | None = key(INTEGER, "bit value of printed reserved fields")
-    unassigned: int | None = key(INTEGER, "bit value of bits that no field names")
-    cite: str = key(TEXT, "where the standard says so", default="")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Behaviour(Record):
-    """behaviour.yaml: what happens on the bus beyond the layout."""
-
-    checksums: tuple[ChecksumRow, ...] = key(list_of(nested(ChecksumRow)), "checksums", default=())
-    counters: tuple[CounterRow, ...] = key(list_of(nested(CounterRow)), "counters", default=())
-    transfers: tuple[TransferRow, ...] = key(list_of(nested(TransferRow)), "transfers", default=())
-    requests: tuple[RequestRow, ...] = key(list_of(nested(RequestRow)), "requests", default=())
-    timing: tuple[TimingRow, ...] = key(list_of(nested(TimingRow)), "conditions", default=())
-    padding: Padding | None = key(nested(Padding), "bits without a signal")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class ChangeRow(Record):
     """One step of an erratum; exactly one of set, add, relabel, keep."""
 
@@ -365,67 +274,3 @@ DOCUMENTS: Mapping[str, type[Record]] = {
     "behaviour": Behaviour,
     "errata": Errata,
 }
-
-
-def read_spec(folder: Path, shown_as: str) -> Spec:
-    """Read a spec folder as printed; raises `SpecError` with the faults of all its files.
-
-    ``shown_as`` is the folder's path as locations shall name it. behaviour.yaml and errata.yaml
-    may be absent, the rest must be there.
-    """
-    reader = _FolderReader(folder, shown_as)
-    standard = reader.read(Standard, "standard.yaml")
-    messages = reader.read(Messages, "messages.yaml")
-    behaviour = reader.read_if_there(Behaviour, "behaviour.yaml")
-    errata = reader.read_if_there(Errata, "errata.yaml")
-    tables = [
-        dataclasses.replace(table, stem=path.stem)
-        for path in sorted((folder / "tables").glob("*.yaml"))
-        if (table := reader.read(SignalTable, f"tables/{path.name}")) is not None
-    ]
-    tables = [_without_references(table, reader.faults) for table in tables]
-    if reader.faults or standard is None or messages is None:
-        raise SpecError(reader.faults)
-    return Spec(
-        standard=standard,
-        messages=messages,
-        tables=tuple(tables),
-        behaviour=behaviour or Behaviour(where=Location(f"{shown_as}/behaviour.yaml")),
-        errata=errata.errata if errata else (),
-    )
-
-
-class _FolderReader:
-    """Reads the files of one folder and collects what is wrong in any of them."""
-
-    def __init__(self, folder: Path, shown_as: str) -> None:
-        self._folder = folder
-        self._shown_as = shown_as
-        self.faults: list[Fault] = []
-
-    def read(self, record: type[RecordT], name: str) -> RecordT | None:
-        try:
-            return record.read(read_yaml(self._folder / name, f"{self._shown_as}/{name}"))
-        except SpecError as error:
-            self.faults.extend(error.faults)
-            return None
-
-    def read_if_there(self, record: type[RecordT], name: str) -> RecordT | None:
-        return self.read(record, name) if (self._folder / name).exists() else None
-
-
-def _without_references(table: SignalTable, faults: list[Fault]) -> SignalTable:
-    """Replace each same_as by the codes of the row it names."""
-    printed = {row.name: row for row in table.rows if not isinstance(row.codes, SameCodes)}
-    rows: list[SignalRow] = []
-    for row in table.rows:
-        if not isinstance(row.codes, SameCodes):
-            rows.append(row)
-        elif same := printed.get(row.codes.row):
-            rows.append(
-                dataclasses.replace(row, codes=same.labels, english_codes=same.english_codes)
-            )
-        else:
-            text = f"same_as: no row {row.codes.row!r} with codes in this table"
-            faults.append(Fault(row.where_is("codes"), text))
-    return dataclasses.replace(table, rows=tuple(rows))

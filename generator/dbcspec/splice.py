@@ -54,6 +54,11 @@ class YamlText:
         self._root = yaml.compose(self._text, Loader=yaml.SafeLoader)
         self._edits: list[tuple[int, int, int, str]] = []
 
+    @property
+    def is_changed(self) -> bool:
+        """Whether there is anything to change."""
+        return bool(self._edits)
+
     def result(self) -> bytes:
         """The file with all changes made."""
         text = self._text

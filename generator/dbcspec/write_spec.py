@@ -14,9 +14,10 @@ from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
 from dbcspec.model import Message, Protocol, Signal
 from dbcspec.resolve import resolve
-from dbcspec.rows import MessageRow, SignalRow, SignalTable, Spec, read_spec
+from dbcspec.rows import MessageRow, SignalRow, SignalTable, Spec
 from dbcspec.schema import Record, keys_of
 from dbcspec.spec_differences import Difference, differences
+from dbcspec.spec_folder import read_spec
 from dbcspec.spec_text import SEND_TYPES, labels_of, message_entry, plain, settled, signal_row
 from dbcspec.splice import YamlText, scalar
 
@@ -46,6 +47,8 @@ def propose_spec(spec_folder: Path, old: Protocol, new: Protocol) -> Proposal:
     erratum sets or keeps is left alone, nothing is deleted, and nothing is renamed: such
     differences are listed. Raises `SpecError` where the spec cannot be read.
     """
+    if not any(differences(old, new)):
+        return Proposal({}, ())
     printed = read_spec(spec_folder, spec_folder.name)
     corrected, _ = apply_errata(printed)
     writer = _Writer(spec_folder, printed, corrected, old, new)
@@ -85,8 +88,7 @@ class _Writer:
         self._reasons: dict[tuple[str, str], str] = {}
         self._next_number: dict[int, int] = {}
         self._settled = dict(settled(printed.errata))
-        units = reversed(list(printed.standard.units.items()))
-        self._units = {plain_unit: unit for unit, plain_unit in units}
+        self._units = {plain: unit for unit, plain in reversed([*printed.standard.units.items()])}
 
     def write(self) -> dict[str, bytes]:
         """The bytes of every file that changes."""
@@ -104,10 +106,7 @@ class _Writer:
         for message in pairing.added:
             self._add_message(message)
         self._references({new.name: new for _, new in self._new.signals()}, changed)
-        made = {name: text.result() for name, text in self._files.items()}
-        return {
-            name: data for name, data in made.items() if data != (self._folder / name).read_bytes()
-        }
+        return {name: text.result() for name, text in self._files.items() if text.is_changed}
 
     def explained(self, left: Difference) -> str:
         """A difference that stays, with the reason where there is one."""

@@ -127,7 +127,7 @@ class Link:
     """One node's typed messages on a bus of python-can.
 
     Keep one for as long as the bus, since it has the alive counters of both directions. One
-    thread may send while another receives.
+    thread may send while another receives, if the bus lets them: `can.ThreadSafeBus` does.
 
     Parameters
     ----------

@@ -36,11 +36,11 @@ def run(arguments: Sequence[str]) -> int:
     try:
         status = _dispatch(arguments)
         finish()
-    except (SwapcanError, can.CanError) as error:
-        note(one_line(error))
-        return 2
     except BrokenPipeError:  # the reader went away: leave quietly
         return 1
+    except (SwapcanError, can.CanError, OSError) as error:  # OSError: an adapter pulled out
+        note(one_line(error))
+        return 2
     return status
 
 

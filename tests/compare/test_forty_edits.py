@@ -7,6 +7,7 @@ cantools by what it writes.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import canmatrix.compare
 import canmatrix.formats
@@ -56,14 +57,12 @@ def unchanged(root: Path) -> Protocol:
 
 
 @pytest.fixture(scope="module")
-def unchanged_matrix(root: Path) -> canmatrix.CanMatrix:
+def unchanged_matrix(root: Path) -> Any:
     return matrix(root / "dbc" / "caamtb-swap.dbc")
 
 
-def matrix(path: Path) -> canmatrix.CanMatrix:
-    found = canmatrix.formats.loadp_flat(str(path))
-    assert isinstance(found, canmatrix.CanMatrix)
-    return found
+def matrix(path: Path) -> Any:
+    return canmatrix.formats.loadp_flat(str(path))
 
 
 def rewritten_by_cantools(text: str) -> str:
@@ -94,7 +93,7 @@ def test_an_edit_gives_its_one_finding(
 
 @over_all_edits
 def test_other_tools_see_that_an_edit_changed_something(
-    edit: Edit, text: str, rewritten: str, unchanged_matrix: canmatrix.CanMatrix, tmp_path: Path
+    edit: Edit, text: str, rewritten: str, unchanged_matrix: Any, tmp_path: Path
 ) -> None:
     edited = edit.change(text)
     assert edited != text

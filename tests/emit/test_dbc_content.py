@@ -12,7 +12,8 @@ from emit.dbc_lines import Dbc
 
 import dbcspec
 import swapcan._generated
-from dbcspec.rows import Spec, read_spec
+from dbcspec.rows import Spec
+from dbcspec.spec_folder import read_spec
 
 ENGLISH = ("caamtb-swap", "caamtb-swap-vehicle", "caamtb-swap-charger")
 SEND_TYPES = {

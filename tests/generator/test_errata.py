@@ -10,7 +10,8 @@ import pytest
 from generator.small_spec import write_spec
 
 from dbcspec.errata import apply_errata
-from dbcspec.rows import SignalRow, Spec, read_spec
+from dbcspec.rows import SignalRow, Spec
+from dbcspec.spec_folder import read_spec
 
 HEAD = "kind: typo, place: p, printed: q, reading: r, because: b"
 

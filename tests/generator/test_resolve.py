@@ -22,7 +22,7 @@ from dbcspec.model import (
     Signal,
 )
 from dbcspec.resolve import resolve
-from dbcspec.rows import read_spec
+from dbcspec.spec_folder import read_spec
 
 
 def resolved(folder: Path, **changed: str) -> Protocol:
@@ -115,6 +115,33 @@ def test_codes_have_the_printed_label_and_the_english_one(tmp_path: Path) -> Non
 def test_a_message_may_have_a_byte_order_of_its_own(tmp_path: Path) -> None:
     wanted = signal(resolved(tmp_path).message("Panel"), "P_WantedTemp")
     assert (wanted.byte_order, wanted.start) == (ByteOrder.MOTOROLA, 7)
+
+
+def test_a_field_may_have_a_byte_order_a_type_and_a_start_value_of_its_own(tmp_path: Path) -> None:
+    given = "name: H_Temp, type: signed, byte_order: Motorola, initial: 7"
+    messages = edited("messages.yaml", "name: H_Temp", given)
+    temp = signal(resolved(tmp_path, messages=messages).message("Heater"), "H_Temp")
+    assert (temp.byte_order, temp.signed, temp.start_value) == (ByteOrder.MOTOROLA, True, 7)
+    assert temp.raw_limits == (-128, 127)
+
+
+def test_a_message_may_say_itself_who_sends_it_and_how_long_its_identifier_is(
+    tmp_path: Path,
+) -> None:
+    messages = edited("messages.yaml", "name: Panel\n", "name: Panel\n    sender: HTR\n")
+    messages = messages.replace("id: 0x18FF0210\n", "id: 0x210\n    extended: no\n")
+    heater, panel = resolved(tmp_path, messages=messages).messages
+    assert (panel.sender, panel.extended) == ("HEATER", False)
+    assert (heater.sender, heater.extended) == ("HEATER", True)
+
+
+def test_a_row_for_one_message_explains_the_signal_of_that_message_only(tmp_path: Path) -> None:
+    messages = edited("messages.yaml", "P_WantedTemp, length: 16", "H_Temp, length: 16")
+    panel = edited("tables/02-panel.yaml", "name: P_WantedTemp", "name: H_Temp\n    message: Panel")
+    protocol = resolved(tmp_path, **{"messages": messages, "02-panel": panel})
+    temps = [signal(message, "H_Temp") for message in protocol.messages]
+    assert [temp.english for temp in temps] == ["Temperature", "Wanted temperature"]
+    assert [temp.factor for temp in temps] == [Decimal("0.5"), Decimal("0.1")]
 
 
 def test_a_period_of_0_is_none(tmp_path: Path) -> None:

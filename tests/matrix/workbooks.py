@@ -55,23 +55,17 @@ def edited(data: bytes, path: Path, edit: Callable[[Worksheet], None]) -> Path:
     return path
 
 
-def column(sheet: Worksheet, english: str) -> int:
-    """The number of a column of our matrix by its English heading."""
-    for cell in sheet[1]:
-        if str(cell.value).split("\n")[-1] == english:
-            assert cell.column is not None
-            return cell.column
-    raise AssertionError(f"no column {english}")
+def columns(sheet: Worksheet) -> dict[str, int]:
+    """The number of each column of our matrix by its English heading."""
+    headings = next(sheet.iter_rows(max_row=1, values_only=True))
+    return {str(text).split("\n")[-1]: number for number, text in enumerate(headings, start=1)}
 
 
-def row_of(sheet: Worksheet, signal: str) -> int:
-    """The number of the row of a signal in our matrix."""
-    names = column(sheet, "Signal Name")
-    return next(
-        number
-        for number in range(1, sheet.max_row + 1)
-        if sheet.cell(number, names).value == signal
-    )
+def signal_rows(sheet: Worksheet) -> dict[str, int]:
+    """The number of the row of each signal in our matrix."""
+    names = columns(sheet)["Signal Name"]
+    found = ((sheet.cell(row, names).value, row) for row in range(2, sheet.max_row + 1))
+    return {str(name): row for name, row in found if name}
 
 
 def repacked(data: bytes, path: Path, parts: Mapping[str, bytes]) -> Path:

@@ -14,7 +14,8 @@ import pytest
 
 from dbcspec.model import Protocol
 from dbcspec.project import Project
-from dbcspec.rows import Spec, read_spec
+from dbcspec.rows import Spec
+from dbcspec.spec_folder import read_spec
 
 LOST_IN_PRINT = {
     "B2V_ST0_Flt_FeedbackChgOC",  # its last letter became a formula

@@ -25,13 +25,8 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
 
 
-def commands() -> list[str]:
-    return [
-        line.removeprefix("$ ")
-        for block in blocks("console")
-        for line in block.splitlines()
-        if line.startswith("$ ")
-    ]
+def commands(block: str) -> list[str]:
+    return [line.removeprefix("$ ") for line in block.splitlines() if line.startswith("$ ")]
 
 
 @pytest.fixture
@@ -45,23 +40,26 @@ def project(tmp_path: Path) -> Path:
     )
     with can.Logger(str(tmp_path / "drive.asc")) as log:
         log.on_message_received(frame)
+    for arguments in (["init", "-q"], ["add", "."], ["commit", "-q", "-m", "first"]):
+        identity = ["-c", "user.name=x", "-c", "user.email=x@example.org"]
+        subprocess.run(["git", *identity, *arguments], cwd=tmp_path, check=True)
     return tmp_path
 
 
-@pytest.mark.parametrize("command", commands())
-def test_a_command_of_the_readme_runs(command: str, project: Path) -> None:
-    name, *arguments = shlex.split(command)
-    done = subprocess.run(
-        [sys.executable, "-m", name, *arguments],
-        cwd=project,
-        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=60,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+@pytest.mark.parametrize("block", blocks("console"), ids=lambda block: block.splitlines()[0])
+def test_the_commands_of_a_block_run_one_after_the_other(block: str, project: Path) -> None:
+    for command in commands(block):
+        name, *arguments = shlex.split(command)
+        done = subprocess.run(
+            [sys.executable, "-m", name, *arguments],
+            cwd=project,
+            env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+            capture_output=True,
+            encoding="utf-8",
+            timeout=60,
+            check=False,
+        )
+        assert done.returncode == 0, f"{command}: {done.stderr}{done.stdout}"
 
 
 def test_the_python_of_the_readme_prints_what_was_sent(tmp_path: Path) -> None:

@@ -9,7 +9,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import can
 import pytest
+from can.interfaces.virtual import VirtualBus
 
 from swapcan import cli
 from swapcan.messages import MESSAGES
@@ -95,6 +97,39 @@ def test_a_narrow_code_page_gets_question_marks(swapcan_command: Command, tmp_pa
     done = swapcan_command("decode", str(log), PYTHONIOENCODING="ascii", LC_ALL="C.UTF-8")
     assert done.returncode == 0
     assert done.stdout.split()[:3] == ["1.000000", "??", "BSU_BMS_0"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
+@pytest.mark.parametrize("closed", [">&-", "2>&-"])
+def test_a_closed_output_is_no_reason_for_a_traceback(
+    closed: str, environment: dict[str, str], channel: str
+) -> None:
+    words = [sys.executable, "-m", "swapcan", "send", "V2B_CMD", "-i", "virtual", "-c", channel]
+    done = subprocess.run(
+        ["sh", "-c", f'"$@" {closed}', "sh", *words],
+        env=environment,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=30,
+        check=False,
+    )
+    assert done.returncode == 0
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("gone", [can.CanOperationError("adapter is gone"), OSError("no device")])
+def test_an_adapter_pulled_out_ends_listen_with_summary_and_error(
+    gone: Exception, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class BrokenBus(VirtualBus):
+        def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+            raise gone
+
+    monkeypatch.setattr(can, "Bus", BrokenBus)
+    assert cli.run(["listen"]) == 2
+    _, summary, error = capsys.readouterr().err.splitlines()
+    assert summary.startswith("swapcan: frames 0, ")
+    assert error == f"swapcan: {gone}"
 
 
 def test_the_demo_exchanges_every_message_without_a_fault(swapcan_command: Command) -> None:

@@ -1,9 +1,10 @@
-"""`dbcspec generate` and `dbcspec check`: write the generated files, or say which are not current."""
+"""`dbcspec generate` and `check`: write the generated files, or say which are not current."""
 
 from __future__ import annotations
 
 import argparse
 import json
+import re
 from pathlib import Path
 
 from dbcspec.artifacts import artifacts, foreign_artifacts, verify, write
@@ -41,7 +42,8 @@ def _generate(options: argparse.Namespace) -> int:
         raise ReadError("--from and --out go together")
     if options.source:
         protocol = open_side(options.source, encoding=options.encoding).protocol
-        name = Path(options.source.rsplit(":", 1)[-1]).stem
+        stem = Path(options.source.rsplit(":", 1)[-1]).stem
+        name = re.sub(r"\W", "_", stem, flags=re.ASCII)
         root, files = options.out, foreign_artifacts(protocol, name, options.runtime)
     else:
         project = load_sound_project(options)

@@ -1,4 +1,4 @@
-"""`dbcspec lint` and `dbcspec rules`: faults in a spec, a DBC or a matrix, and what is looked for."""
+"""`dbcspec lint` and `rules`: faults in a spec, a DBC or a matrix, and what is looked for."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dbcspec.commands.common import (
     write_file,
 )
 from dbcspec.compare.run import RULES as PROMISES
-from dbcspec.config import read_lint_config
+from dbcspec.config import read_lint_config, selected
 from dbcspec.errors import ReadError
 from dbcspec.fix import fix_bytes, raw_text
 from dbcspec.lint.items import rule_infos, to_items
@@ -36,6 +36,9 @@ def add(commands: Commands) -> None:
     project_option(lint)
     lint.add_argument("target", nargs="?", help="what to lint (default: the project's spec)")
     lint.add_argument("--config", type=Path, help="TOML file with select, ignore and waivers")
+    lint.add_argument(
+        "--select", metavar="RULES", help="rules to run, with commas between; ALL, DEFAULT"
+    )
     lint.add_argument("--encoding", help="of TARGET, where it is not to be found out")
     lint.add_argument("--fix", action="store_true", help="mend a DBC file where that is certain")
     report_options(lint)
@@ -66,6 +69,8 @@ def _lint(options: argparse.Namespace) -> int:
         found = project.config.lint if options.config is None else read_lint_config(options.config)
         subject = project.subject()
         title = project.config.spec
+    if options.select:
+        found = selected(found, options.select.split(","))
     items = to_items(lint_with(subject, found))
     print_report(options, Report(title=title, items=items, rules=rule_infos()))
     return 1 if items else 0

@@ -78,9 +78,9 @@ def _import_matrix(options: argparse.Namespace) -> int:
     proposal = propose_spec(folder, project.protocol, matrix)
     for name in write(folder, proposal.files):
         print(f"wrote {project.config.spec}/{name}")
-    for text in proposal.left:
+    for text in proposal.not_written:
         print(f"dbcspec: not written: {text}", file=sys.stderr)
-    return 1 if proposal.left else 0
+    return 1 if proposal.not_written else 0
 
 
 def _import(options: argparse.Namespace) -> int:

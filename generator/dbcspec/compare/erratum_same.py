@@ -27,7 +27,7 @@ def _text(erratum: Erratum | None, other: Erratum | None) -> str:
         return ""
     parts = [erratum.kind, erratum.place, erratum.printed, erratum.reading, erratum.because]
     if other is None:
-        return erratum.reading
+        return erratum.reading or erratum.id
     others = [other.kind, other.place, other.printed, other.reading, other.because]
     return "; ".join(mine for mine, its in zip(parts, others, strict=True) if mine != its)
 

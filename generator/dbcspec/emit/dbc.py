@@ -51,7 +51,7 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
     With ``english`` comments and labels are the English ones, else those of the standard; where a
     text is missing in one language it is that of the other. Names longer than DBC allows get a
     short one and an attribute with the long one. Attributes are defined for what the protocol
-    carries. The text is what `dbcspec.lint` passes; it checks nothing, see `dbc_faults`.
+    carries. The text is what `dbcspec.lint` passes; it checks nothing, see `foreign.dbc_faults`.
     """
     part, long_names = shortened(_on_bus(protocol, bus) if bus else protocol)
     rates = {each.bit_rate for each in ([bus] if bus else protocol.buses)}

@@ -130,7 +130,8 @@ def _class_names(name: str) -> Iterator[str]:
     """``door_state`` as ``DoorState``, ``DoorStateCodes``, ``DoorStateCodes2`` and so on."""
     camel = "".join(part[:1].upper() + part[1:] for part in name.split("_")) or "Codes"
     camel = f"_{camel}" if camel[0].isdigit() else camel
-    yield camel
+    if len(camel) > 1:  # one letter is what its table of labels would be called
+        yield camel
     yield f"{camel}Codes"
     count = 2
     while True:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from enum import Enum
 
-from dbcspec.model import Code, Message, Signal, ValueTable
+from dbcspec.codes import is_numbering, value_codes
+from dbcspec.model import Message, Signal, ValueTable
 
 
 class Kind(Enum):
@@ -35,19 +36,6 @@ def kind_of(message: Message, signal: Signal) -> Kind:
         return Kind.LABELLED
     plain = signal.factor == 1 and signal.offset == 0 and not signal.unit
     return Kind.NUMBER if plain else Kind.PHYSICAL
-
-
-def value_codes(signal: Signal) -> tuple[Code, ...]:
-    """The codes that are values, without those for invalid and abnormal."""
-    states = (signal.invalid_code, signal.abnormal_code)
-    codes = signal.value_table.codes if signal.value_table else ()
-    return tuple(code for code in codes if code.value not in states)
-
-
-def is_numbering(codes: tuple[Code, ...]) -> bool:
-    """Whether labels only repeat the code behind one word, as CSC1, CSC2 and so on do."""
-    words = {code.english.removesuffix(str(code.value)) for code in codes}
-    return len(words) == 1 and all(code.english.endswith(str(code.value)) for code in codes)
 
 
 def enums(messages: tuple[Message, ...]) -> dict[ValueTable, tuple[Signal, ...]]:

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 
 from openpyxl import Workbook
-from openpyxl.styles import Alignment, PatternFill
+from openpyxl.styles import Alignment
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.emit.matrix_cells import A4, fit_to_page, put, set_widths
+from dbcspec.emit.matrix_cells import A4, BIT_STYLES, fit_to_page, put, set_widths
 from dbcspec.layout import bits
 from dbcspec.model import Message, Protocol, Signal
 
@@ -22,10 +22,6 @@ _MOST_BYTES = 64
 _LONGEST_SHEET_NAME = 31
 _NAMES_SHOWN = 3
 _FIRST_ROW = 4
-_COLOURS = (
-    "FFBDD7EE", "FFC6E0B4", "FFFFE699", "FFF8CBAD", "FFD9D2E9", "FFB7E1CD", "FFFCE4D6", "FFD0CECE",
-    "FFCFE2F3", "FFEAD1DC", "FFE2EFDA", "FFFFF2CC",
-)  # fmt: skip
 
 
 def bit_sheet_names(protocol: Protocol, taken: Iterable[str]) -> dict[int, str]:
@@ -64,12 +60,12 @@ def add_bit_sheet(book: Workbook, name: str, message: Message, back: str) -> Non
     for bit in range(8):
         put(sheet, 3, 9 - bit, bit, "swap_head")
     taken = _taken(message)
-    colours = {
-        signal.name: PatternFill("solid", fgColor=_COLOURS[index % len(_COLOURS)])
+    styles = {
+        signal.name: BIT_STYLES[index % len(BIT_STYLES)]
         for index, signal in enumerate(message.signals)
     }
     for byte in range(message.length):
-        _byte_row(sheet, byte, taken, colours)
+        _byte_row(sheet, byte, taken, styles)
     sheet.freeze_panes = f"B{_FIRST_ROW}"
     fit_to_page(sheet, A4)
 
@@ -87,7 +83,7 @@ def _byte_row(
     sheet: Worksheet,
     byte: int,
     taken: Mapping[int, list[Signal]],
-    colours: Mapping[str, PatternFill],
+    styles: Mapping[str, str],
 ) -> None:
     row = _FIRST_ROW + byte
     put(sheet, row, 1, byte, "swap_head")
@@ -96,9 +92,8 @@ def _byte_row(
         text = _text(taken.get(8 * byte + high, []), 8 * byte + low, 8 * byte + high)
         first, last = 9 - high, 9 - low
         for column in range(first, last + 1):
-            cell = put(sheet, row, column, text if column == first else None, "swap_bit")
-            if names:
-                cell.fill = colours[names[0]]
+            style = styles[names[0]] if names else "swap_bit"
+            put(sheet, row, column, text if column == first else None, style)
         if last > first:
             sheet.merge_cells(start_row=row, end_row=row, start_column=first, end_column=last)
 

@@ -27,6 +27,13 @@ _EXACT_DIGITS = 15
 _RISKY_START = ("=", "+", "-", "@", "\t", "\r", "\n")
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\ud800-\udfff\ufffe\uffff]|_x(?=[0-9A-Fa-f]{4}_)")
 _FONT = "Arial"
+_BIT_COLOURS = (
+    "FFBDD7EE", "FFC6E0B4", "FFFFE699", "FFF8CBAD", "FFD9D2E9", "FFB7E1CD", "FFFCE4D6", "FFD0CECE",
+    "FFCFE2F3", "FFEAD1DC", "FFE2EFDA", "FFFFF2CC",
+)  # fmt: skip
+BIT_STYLES = tuple(f"swap_bit_{index}" for index in range(len(_BIT_COLOURS)))
+"""The styles of the signals in a bit matrix, one colour each."""
+
 _GREY, _BLUE = "FF808080", "FF0563C1"
 _LINE = Side(style="thin", color="FFBFBFBF")
 _EDGES = Border(left=_LINE, right=_LINE, top=_LINE, bottom=_LINE)
@@ -52,6 +59,10 @@ def add_styles(book: Workbook) -> None:
         ("swap_sends", Font(name=_FONT, size=9, bold=True), "FFF8CBAD", _TOP_CENTRED),
         ("swap_receives", Font(name=_FONT, size=9), "FFC6E0B4", _TOP_CENTRED),
         ("swap_bit", Font(name=_FONT, size=8), "", _CENTRED),
+        *(
+            (name, Font(name=_FONT, size=8), colour, _CENTRED)
+            for name, colour in zip(BIT_STYLES, _BIT_COLOURS, strict=True)
+        ),
     ):
         style = NamedStyle(name=name, font=font, alignment=alignment)
         if name not in ("swap_title", "swap_link"):

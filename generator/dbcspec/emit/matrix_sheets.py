@@ -10,6 +10,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 from dbcspec.emit.matrix_cells import A4, Value, fit_to_page, put, put_table, set_widths
 from dbcspec.model import Aspect, Protocol
 
+_COVER_LINE = 62
+"""Characters that fit into a line of the cover."""
+
 _LEGEND = (
     ("S / R", "发送 / 接收", "sends / receives"),
     ("Intel", "起始位为最低有效位", "the start bit is the least significant bit"),
@@ -44,6 +47,7 @@ def add_cover(sheet: Worksheet, protocol: Protocol, sheets: Sequence[str]) -> No
     for label, value in facts:
         put(sheet, row, 1, label, "swap_message")
         put(sheet, row, 2, value)
+        sheet.row_dimensions[row].height = 14 * (1 + len(str(value)) // _COVER_LINE)
         row += 1
     row += 1
     for letters, chinese, english in _LEGEND:
@@ -90,9 +94,13 @@ def add_nodes(sheet: Worksheet, protocol: Protocol) -> None:
             for node in protocol.nodes
         ),
     )
+    _add_buses(sheet, row + 1, protocol)
+
+
+def _add_buses(sheet: Worksheet, row: int, protocol: Protocol) -> None:
     put_table(
         sheet,
-        row + 1,
+        row,
         (
             "总线\nBus",
             "名称\nTitle",

@@ -49,6 +49,18 @@ def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
     yield f"english: {_text(protocol.english)}"
     if protocol.edition:
         yield f"edition: {_text(protocol.edition)}"
+    yield from _participants(protocol)
+    yield f"frame_format: {protocol.frame_format}"
+    for key, labels in _state_labels(protocol).items():
+        if labels:
+            yield f"{key}: [{', '.join(map(_text, labels))}]"
+    named = _named_tables(protocol, repeated)
+    if named:
+        yield "value_tables:"
+        yield from (f"  {name}: {signal}" for name, signal in named.items())
+
+
+def _participants(protocol: Protocol) -> Iterator[str]:
     yield from _list(
         "nodes",
         (
@@ -75,14 +87,6 @@ def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
             for bus in protocol.buses
         ),
     )
-    yield f"frame_format: {protocol.frame_format}"
-    for key, labels in _state_labels(protocol).items():
-        if labels:
-            yield f"{key}: [{', '.join(map(_text, labels))}]"
-    named = _named_tables(protocol, repeated)
-    if named:
-        yield "value_tables:"
-        yield from (f"  {name}: {signal}" for name, signal in named.items())
 
 
 def _state_labels(protocol: Protocol) -> dict[str, list[str]]:

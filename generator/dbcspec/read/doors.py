@@ -12,7 +12,8 @@ from dbcspec.model import Protocol
 from dbcspec.read.dbc import FORMATS, read_any
 from dbcspec.read.git import checked_out, split_revision
 from dbcspec.resolve import resolve
-from dbcspec.rows import Spec, read_spec
+from dbcspec.rows import Spec
+from dbcspec.spec_folder import read_spec
 
 MATRIX = ".xlsx"
 """How the name of a matrix ends."""

@@ -79,13 +79,7 @@ class SignalDraft:
             key: self._raw(key, length, signed=signed)
             for key in ("raw_minimum", "raw_maximum", "initial", "invalid", "abnormal")
         }
-        scaled = [
-            None if (limit := raw[key]) is None else limit * factor + offset
-            for key in ("raw_minimum", "raw_maximum")
-        ]
-        low, high = _limits(length, factor, offset, signed=signed, is_float=is_float)
-        minimum = row.read("minimum", decimal_of, None)
-        maximum = row.read("maximum", decimal_of, None)
+        given = _Given(length, factor, offset, signed, is_float)
         multiplexing = row.read("multiplexing", _multiplexing, _NOT_MULTIPLEXED)
         byte_order, start = self._place(length)
         return Signal(
@@ -99,8 +93,8 @@ class SignalDraft:
             is_float=is_float,
             factor=factor,
             offset=offset,
-            minimum=_first(minimum, scaled[0], low),
-            maximum=_first(maximum, scaled[1], high),
+            minimum=given.limit(row, "minimum", raw["raw_minimum"], 0),
+            maximum=given.limit(row, "maximum", raw["raw_maximum"], 1),
             unit=row.text("unit"),
             value_table=tables.of(
                 name, row.name("value_table"), self._codes(length, signed=signed)
@@ -169,20 +163,29 @@ class SignalDraft:
         return codes
 
 
-def _first(*values: Decimal | None) -> Decimal:
-    return next(value for value in values if value is not None)
+@dataclass(frozen=True, slots=True)
+class _Given:
+    """What limits follow from."""
 
+    length: int
+    factor: Decimal
+    offset: Decimal
+    signed: bool
+    is_float: bool
 
-def _limits(
-    length: int, factor: Decimal, offset: Decimal, *, signed: bool, is_float: bool
-) -> tuple[Decimal, Decimal]:
-    """What the bits can hold, for a range that is not given."""
-    if is_float:
-        return float_limits(length)
-    values = 1 << length
-    raw = -(values // 2) if signed else 0
-    low, high = sorted((raw * factor + offset, (raw + values - 1) * factor + offset))
-    return low, high
+    def limit(self, row: Row, key: str, raw: int | None, side: int) -> Decimal:
+        """A physical limit as given, else from the one on the bus, else what the bits can hold."""
+        physical = row.read(key, decimal_of, None)
+        if physical is not None:
+            return physical
+        if raw is not None:
+            return raw * self.factor + self.offset
+        if self.is_float:
+            return float_limits(self.length)[side]
+        values = 1 << self.length
+        low = -(values // 2) if self.signed else 0
+        ends = (low * self.factor + self.offset, (low + values - 1) * self.factor + self.offset)
+        return sorted(ends)[side]
 
 
 def _data_type(cell: CellValue) -> tuple[bool, bool]:

@@ -24,8 +24,8 @@ _FAILURES = (
 def add_bus_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that python-can's own programs have.
 
-    `can.cli` has them ready made from python-can 4.6 on; its ``--timing`` prints to stdout, and
-    it hides why a bus cannot be opened.
+    Not by `can.cli.add_bus_arguments`: its ``--timing`` prints a line among the results. What is
+    not here, such as fd and timings, goes through ``--bus-kwargs``.
     """
     group = parser.add_argument_group(
         "bus", "What is left out comes from python-can's configuration files and variables."

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from swapcan.commands.log_file import LogFileError, read_log
-from swapcan.commands.transcript import Transcript
+from swapcan.commands.transcript import JSON_HELP, Transcript
 from swapcan.console import Command, CommandError, note
 
 # What shtab calls a file, for the completion of shells.
@@ -21,7 +21,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         help="any log that python-can reads: .asc, .blf, .csv, .db, .log, .trc, .mf4, or .asc.gz",
     )
     vars(file)["complete"] = _FILE
-    parser.add_argument("--json", action="store_true", help="print one JSON object a line")
+    parser.add_argument("--json", action="store_true", help=JSON_HELP)
 
 
 def _run(options: argparse.Namespace) -> int:

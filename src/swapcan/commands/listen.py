@@ -9,7 +9,7 @@ import time
 import can
 
 from swapcan.commands.bus_options import add_bus_options, open_bus
-from swapcan.commands.transcript import Transcript
+from swapcan.commands.transcript import JSON_HELP, Transcript
 from swapcan.console import Command, note, seconds
 
 _WAIT = 0.5
@@ -17,7 +17,7 @@ _WAIT = 0.5
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--json", action="store_true", help="print one JSON object a line")
+    parser.add_argument("--json", action="store_true", help=JSON_HELP)
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
     parser.add_argument("--count", type=_count, default=math.inf, help="end after so many messages")
     add_bus_options(parser)
@@ -35,7 +35,9 @@ def _run(options: argparse.Namespace) -> int:
         note(f"listening on {bus.channel_info}, Ctrl-C ends")
         try:
             _copy(bus, transcript, options.count, time.monotonic() + options.seconds)
-        except (KeyboardInterrupt, can.CanError):
+        except BrokenPipeError:
+            raise
+        except (KeyboardInterrupt, can.CanError, OSError):
             note(transcript.summary())
             raise
     note(transcript.summary())

@@ -32,6 +32,12 @@ from swapcan.console import say
 from swapcan.message import LabelledField, Message, SignalState
 from swapcan.messages import MESSAGES
 
+JSON_HELP = (
+    "print one JSON object a line: timestamp, channel, id, message, and signals, states, faults,"
+    " or data and fault where the frame is refused"
+)
+"""For the option of the commands that print such lines."""
+
 _NAME_WIDTH = max(len(kind.NAME) for kind in MESSAGES)
 
 

@@ -1,0 +1,35 @@
+"""Behaviour may only speak of messages and signals that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from dbcspec.errors import Fault
+from dbcspec.model import Message
+from dbcspec.rows import Spec
+
+
+def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:
+    """Yield a fault for each name in behaviour.yaml that no message or signal has."""
+    names = {message.name for message in messages}
+    signals = {field.name for _, field in spec.fields()}
+    behaviour = spec.behaviour
+    for rows, key, known in (
+        (behaviour.checksums, "signal", signals),
+        (behaviour.counters, "signal", signals),
+        (behaviour.requests, "signal", signals),
+        (behaviour.requests, "answers", names),
+        (behaviour.timing, "messages", names),
+        (behaviour.transfers, "messages", names),
+        *(
+            (behaviour.transfers, key, signals)
+            for key in ("items", "count_signal", "frame_number", "group", "groups_signal")
+        ),
+        (behaviour.transfers, "length_signal", signals),
+    ):
+        for row in rows:
+            value = getattr(row, key)
+            for name in (value,) if isinstance(value, str) else value:
+                if name and name not in known:
+                    text = f"{key}: there is no {name!r}"
+                    yield Fault(row.where_is(key), text)

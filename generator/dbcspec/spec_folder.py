@@ -1,0 +1,76 @@
+"""A spec folder on disk to rows as printed."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+from dbcspec.behaviour_rows import Behaviour
+from dbcspec.errors import Fault, Location, SpecError
+from dbcspec.rows import Errata, Messages, SameCodes, SignalRow, SignalTable, Spec, Standard
+from dbcspec.schema import RecordT
+from dbcspec.source import read_yaml
+
+
+def read_spec(folder: Path, shown_as: str) -> Spec:
+    """Read a spec folder as printed; raises `SpecError` with the faults of all its files.
+
+    ``shown_as`` is the folder's path as locations shall name it. behaviour.yaml and errata.yaml
+    may be absent, the rest must be there.
+    """
+    reader = _FolderReader(folder, shown_as)
+    standard = reader.read(Standard, "standard.yaml")
+    messages = reader.read(Messages, "messages.yaml")
+    behaviour = reader.read_if_there(Behaviour, "behaviour.yaml")
+    errata = reader.read_if_there(Errata, "errata.yaml")
+    tables = [
+        dataclasses.replace(table, stem=path.stem)
+        for path in sorted((folder / "tables").glob("*.yaml"))
+        if (table := reader.read(SignalTable, f"tables/{path.name}")) is not None
+    ]
+    tables = [_without_references(table, reader.faults) for table in tables]
+    if reader.faults or standard is None or messages is None:
+        raise SpecError(reader.faults)
+    return Spec(
+        standard=standard,
+        messages=messages,
+        tables=tuple(tables),
+        behaviour=behaviour or Behaviour(where=Location(f"{shown_as}/behaviour.yaml")),
+        errata=errata.errata if errata else (),
+    )
+
+
+class _FolderReader:
+    """Reads the files of one folder and collects what is wrong in any of them."""
+
+    def __init__(self, folder: Path, shown_as: str) -> None:
+        self._folder = folder
+        self._shown_as = shown_as
+        self.faults: list[Fault] = []
+
+    def read(self, record: type[RecordT], name: str) -> RecordT | None:
+        try:
+            return record.read(read_yaml(self._folder / name, f"{self._shown_as}/{name}"))
+        except SpecError as error:
+            self.faults.extend(error.faults)
+            return None
+
+    def read_if_there(self, record: type[RecordT], name: str) -> RecordT | None:
+        return self.read(record, name) if (self._folder / name).exists() else None
+
+
+def _without_references(table: SignalTable, faults: list[Fault]) -> SignalTable:
+    """Replace each same_as by the codes of the row it names."""
+    printed = {row.name: row for row in table.rows if not isinstance(row.codes, SameCodes)}
+    rows: list[SignalRow] = []
+    for row in table.rows:
+        if not isinstance(row.codes, SameCodes):
+            rows.append(row)
+        elif same := printed.get(row.codes.row):
+            rows.append(
+                dataclasses.replace(row, codes=same.labels, english_codes=same.english_codes)
+            )
+        else:
+            text = f"same_as: no row {row.codes.row!r} with codes in this table"
+            faults.append(Fault(row.where_is("codes"), text))
+    return dataclasses.replace(table, rows=tuple(rows))

@@ -1,0 +1,165 @@
+"""What is no DBC, or half of one: one line that names the file, in bounded time."""
+
+from __future__ import annotations
+
+import os
+import random
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dbcspec.errors import ReadError
+from dbcspec.model import Protocol
+from dbcspec.read.dbc import read_any, read_dbc
+from dbcspec.read.encoding import decode, find_encoding
+
+SMALL = """VERSION ""
+
+BU_: A B
+BO_ 1 First: 8 A
+ SG_ One : 0|8@1+ (1,0) [0|255] "V" B
+ SG_ Two : 8|8@1+ (1,0) [0|255] "" B
+
+CM_ SG_ 1 One "a comment";
+BA_DEF_ BO_  "GenMsgCycleTime" INT 0 65535;
+BA_DEF_DEF_  "GenMsgCycleTime" 0;
+BA_ "GenMsgCycleTime" BO_ 1 100;
+VAL_ 1 One 0 "Off" 1 "On" ;
+"""
+
+
+def refusal(path: Path) -> str:
+    """The one line with which a file is refused."""
+    with pytest.raises(ReadError) as caught:
+        read_dbc(path)
+    line = str(caught.value)
+    assert "\n" not in line
+    assert line.startswith(str(path))
+    return line.removeprefix(str(path))
+
+
+def outcome(path: Path) -> Protocol | str:
+    """The protocol, or the line that says why there is none."""
+    try:
+        return read_dbc(path)
+    except ReadError as error:
+        return str(error)
+
+
+def file(folder: Path, data: bytes | str) -> Path:
+    path = folder / "x.dbc"
+    path.write_bytes(data if isinstance(data, bytes) else data.encode("utf-8"))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("data", "text"),
+    [
+        (b"", ": the file is empty"),
+        (b" \r\n\t\n", ": the file is empty"),
+        (b"\x7fELF\x00\x01\x02", ": is not a text file"),
+        (b"PK\x03\x04 and more", ": is no DBC file: it begins with"),
+        (b"<html>", ": is no DBC file"),
+        (b":::", ": is no DBC file"),
+        ('VERSION ""\nnonsense here\n', ":2:1: this is no line of a DBC file"),
+        (SMALL.replace("@1+ (1,0) [0|255] \"V\"", ""), ":5"),
+        (SMALL.replace("(1,0) [0|255] \"V\"", "(0,0) [0|255] \"V\""), ":5:1: One: its factor is 0"),
+        (SMALL.replace("(1,0) [0|255] \"V\"", "(1e999,0) [0|1] \"V\""), ":5:1: One: inf is no"),
+        (SMALL.replace('"a comment"', '"a comment'), "a quote is opened and never closed"),
+        (SMALL.replace("BO_ 1 First", "BO_ 4294967295 First"), "29 bits"),
+        (SMALL + "SG_MUL_VAL_ 1 Two One 0-4294967295;\n", ":13:1: more than 1048576 multi"),
+        ("VERSION \"\"\n" + "BO_ 1 A: 8 X\n" * 50_001, ":50002:1: more than 50000 messages"),
+        ("VERSION \"\"\nBU_: " + "A " * 600_000, ":2:1: the line is longer than"),
+    ],
+)  # fmt: skip
+def test_a_file_that_is_no_dbc_says_so_in_one_line(
+    tmp_path: Path, data: bytes | str, text: str
+) -> None:
+    assert text in refusal(file(tmp_path, data))
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path: Path) -> None:
+    assert refusal(tmp_path / "none.dbc") == ": there is no such file"
+    assert refusal(tmp_path) == ": is not a file"
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="everybody may read everything")
+def test_a_file_that_may_not_be_read_is_refused(tmp_path: Path) -> None:
+    path = file(tmp_path, SMALL)
+    path.chmod(0)
+    assert "cannot be read" in refusal(path)
+
+
+def test_fifty_megabytes_are_refused_before_they_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "x.dbc"
+    with path.open("wb") as big:
+        big.write(b'VERSION ""\n')
+        big.truncate(50 * 2**20)
+    assert refusal(path) == ": is larger than 16 MB"
+
+
+def test_the_largest_size_is_the_callers_choice(tmp_path: Path) -> None:
+    path = file(tmp_path, SMALL)
+    assert read_dbc(path, largest=len(SMALL)).messages
+    with pytest.raises(ReadError, match="is larger than"):
+        read_dbc(path, largest=len(SMALL) - 1)
+
+
+def test_a_file_cut_anywhere_is_refused_or_has_only_what_is_whole(tmp_path: Path) -> None:
+    whole = read_dbc(file(tmp_path, SMALL))
+    refused = 0
+    for length in range(1, len(SMALL)):
+        cut = SMALL[:length]
+        protocol = outcome(file(tmp_path, cut))
+        if isinstance(protocol, str):
+            refused += 1
+            assert "\n" not in protocol
+            continue
+        # No message or signal that the text begins is lost without a word.
+        assert len(protocol.messages) == len(re.findall(r"^BO_ ", cut, re.MULTILINE))
+        assert sum(1 for _ in protocol.signals()) == len(re.findall(r"^ SG_ ", cut, re.MULTILINE))
+        assert {message.name for message in protocol.messages} <= {
+            message.name for message in whole.messages
+        }
+    assert refused > len(SMALL) // 2
+
+
+def test_a_file_cut_in_a_line_says_so(tmp_path: Path) -> None:
+    cut = SMALL[: SMALL.index('[0|255] "" B')]
+    assert refusal(file(tmp_path, cut)) == ": the last statement is cut off"
+
+
+def test_mutilated_files_are_read_or_refused_and_nothing_else(tmp_path: Path) -> None:
+    chance = random.Random(1)
+    for _ in range(200):
+        text = list(SMALL)
+        for _ in range(chance.randint(1, 6)):
+            where = chance.randrange(len(text))
+            text[where : where + chance.randint(0, 4)] = chance.choice(
+                ['"', ";", "\\", "M", "-1", "SG_ ", "\n", "99999999999999999999", "\x00", "ä"]
+            )
+        result = outcome(file(tmp_path, "".join(text)))
+        assert isinstance(result, Protocol) or "\n" not in result
+
+
+@given(st.binary(max_size=200))
+def test_any_bytes_are_decoded_or_refused(data: bytes) -> None:
+    encoding = find_encoding(data)
+    if encoding is None:
+        with pytest.raises(ReadError, match=r"^x\.dbc: the encoding"):
+            decode(data, "x.dbc")
+    elif encoding != "utf-16":  # whose surrogates may be alone
+        assert decode(data, "x.dbc").encode(encoding) == data
+
+
+@pytest.mark.parametrize("ending", ["kcd", "sym", "arxml"])
+def test_broken_files_of_other_formats_are_refused_in_one_line(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"x.{ending}"
+    path.write_text("<a><b></a>", "ascii")
+    with pytest.raises(ReadError) as caught:
+        read_any(path)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
