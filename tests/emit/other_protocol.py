@@ -22,6 +22,7 @@ GEARS = ValueTable("Gears", (Code(0, "Leerlauf", "Neutral"), Code(7, "Rückwärt
 TEXTS = ValueTable("Texts", (Code(1, "Eins", "One"), Code(60000, "Viele", "Very many")))
 LETTERS = ValueTable("Letters", (Code(65, "A", "A"), Code(90, "Z", "Z"), Code(255, "-", "None")))
 SLOTS = ValueTable("Slots", (Code(1, "Slot1", "Slot1"), Code(2, "Slot2", "Slot2")))
+LEVELS = ValueTable("Levels", (Code(0, "Leer", "Empty"),))
 LONG_TABLE = ValueTable(
     "AlmostAsLongAsANameCanBeInDbc",
     (Code(0, "x", "A label of nearly as many bytes as a label may have in a DBC"),),
@@ -60,6 +61,7 @@ WHEELS = Message(
     send_type=SendType.CYCLIC,
     signals=(
         SPEED,
+        signal("Level", 8, 4, factor=Decimal("0.5"), maximum=Decimal("7.5"), value_table=LEVELS),
         signal("Gear", 16, 3, maximum=Decimal(5), value_table=GEARS, start_value=7),
         signal("Text", 24, 16, value_table=TEXTS),
         signal("Letter", 40, 8, value_table=LETTERS, invalid_code=255, start_value=255),
@@ -105,7 +107,7 @@ OTHER = Protocol(
         Bus(name="chassis", bit_rate=500_000, nodes=("ECU", "ABS")),
     ),
     messages=(WHEELS, LONG_NAMES, HELLO),
-    value_tables=(GEARS, TEXTS, LETTERS, SLOTS, LONG_TABLE),
+    value_tables=(LEVELS, GEARS, TEXTS, LETTERS, SLOTS, LONG_TABLE),
 )
 PLAIN = Protocol(
     name="plain",

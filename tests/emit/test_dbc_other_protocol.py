@@ -84,9 +84,10 @@ def test_another_reader_finds_the_values_of_the_model() -> None:
     assert not wheels.is_extended_frame
     # FFF in byte 0 and the upper half of byte 1 is -1: -1 x 0.0625 - 2.5 = -2.5625.
     # EA60 is 60000, low byte first.
-    decoded = wheels.decode_simple(bytes.fromhex("FF F0 07 60 EA 5A 02 09"))
+    decoded = wheels.decode_simple(bytes.fromhex("FF F3 07 60 EA 5A 02 09"))
     assert {name: str(value) for name, value in decoded.items()} == {
         "Wheel_Speed": "-2.5625",
+        "Level": "1.5",
         "Gear": "Reverse",
         "Text": "Very many",
         "Letter": "Z",

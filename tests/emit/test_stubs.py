@@ -175,15 +175,17 @@ def test_the_decoders_of_another_protocol_agree_with_another_reader(other: Modul
     assert isinstance(dbc, Database)
     by_name = {kind.NAME: (kind, decode) for kind, decode in other.DECODERS.items()}
     for payload, expected in (
-        ("FF F0 07 60 EA 5A 02 09", (-2.5625, 7, 60000, "Z", 2, 9)),
-        ("80 00 01 02 00 FF 03 FF", (-130.5, 1, 2, SignalState.INVALID, 3, 255)),
-        ("7F F0 00 01 00 42 00 00", (125.4375, 0, 1, 66, 0, 0)),
+        ("FF F3 07 60 EA 5A 02 09", (-2.5625, 1.5, 7, 60000, "Z", 2, 9)),
+        ("80 0F 01 02 00 FF 03 FF", (-130.5, 7.5, 1, 2, SignalState.INVALID, 3, 255)),
+        # A code of a measured value is a value all the same.
+        ("7F F0 00 01 00 42 00 00", (125.4375, 0.0, 0, 1, 66, 0, 0)),
     ):
         wheels, decode = by_name["Wheels"]
         packer = Packer(dbc.get_message_by_name("Wheels"))
         decoded = decode(packer.unpack(bytes.fromhex(payload)))
         assert isinstance(decoded, wheels)
         assert tuple(getattr(decoded, name) for name in wheels.FIELDS) == expected
+        assert (type(decoded.level), type(decoded.slot)) == (float, int)
     assert (decoded.text.name, decoded.gear.name) == ("ONE", "NEUTRAL")
 
 
@@ -199,7 +201,9 @@ def test_the_messages_of_another_protocol_give_the_bytes_worked_out_by_hand(
         return packer.pack(kinds[name](**values).to_raw()).hex(" ").upper()
 
     # (-2.5625 + 2.5) / 0.0625 = -1 = FFF; the gear starts at its start value 7.
-    assert payload("Wheels", wheel_speed=-2.5625, letter="A") == "FF F0 07 00 00 41 00 00"
+    # 3.5 / 0.5 = 7 in the lower half of byte 1.
+    wheels = payload("Wheels", wheel_speed=-2.5625, level=3.5, letter="A")
+    assert wheels == "FF F7 07 00 00 41 00 00"
     # 0 + 2.5 = 40 x 0.0625 = 028; the letter has an invalid code.
     assert payload("Wheels", wheel_speed=0.0, text=60000) == "02 80 07 60 EA FF 00 00"
     assert payload("A_Message_With_A_Rather_Long_Nam") == "FF FF 00 00 00 00 00 00"

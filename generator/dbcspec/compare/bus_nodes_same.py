@@ -12,13 +12,10 @@ from dbcspec.compare.spec_only import both_are_specs
 def _check(pairing: Pairing) -> Iterator[Change]:
     if not both_are_specs(pairing):
         return
-    gone = {node.name for node in pairing.removed_nodes}
-    fresh = {node.name for node in pairing.added_nodes}
+    # Of a node that is gone or new as a whole, other promises tell.
+    told = {node.name for node in (*pairing.removed_nodes, *pairing.added_nodes)}
     for old, new in pairing.buses:
-        # Of a node that is gone or new as a whole, other promises tell.
-        before = pairing.continued(node for node in old.nodes if node not in gone)
-        after = tuple(node for node in new.nodes if node not in fresh)
-        if set(before) != set(after):
+        if set(pairing.continued(old.nodes)) - told != set(new.nodes) - told:
             yield protocol_change(new.name, "nodes", listed(old.nodes), listed(new.nodes))
 
 

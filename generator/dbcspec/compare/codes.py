@@ -53,10 +53,15 @@ class CodesPair:
 def code_pairs(pairing: Pairing) -> Iterator[CodesPair]:
     """Each pair of value tables that differ in a code, in the order of their first signals."""
     users: dict[tuple[ValueTable | None, ValueTable | None], list[SignalPair]] = {}
-    for signal in pairing.signals():
+    same: dict[tuple[int, int], bool] = {}
+    for signal in pairing.signals:
         old, new = signal.old.value_table, signal.new.value_table
-        if _codes(old) != _codes(new):
-            users.setdefault((old, new), []).append(signal)
+        if old is not new:
+            key = id(old), id(new)
+            if key not in same:
+                same[key] = _codes(old) == _codes(new)
+            if not same[key]:
+                users.setdefault((old, new), []).append(signal)
     for (old, new), signals in users.items():
         yield CodesPair(signals[0], len(signals) - 1, _by_value(old), _by_value(new))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 
-from dbcspec.compare.languages import Languages, Text
+from dbcspec.compare.languages import Text
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import (
     Breaks,
@@ -24,19 +24,21 @@ from dbcspec.model import Aspect, Bus, Message, Node, Protocol, Signal
 def _check(pairing: Pairing) -> Iterator[Change]:
     yield from _of_protocol(pairing)
     for message in pairing.messages:
-        if not _same_message(pairing.languages, message.old, message.new):
+        if not _same_message(pairing, message.old, message.new):
             shown = _shown(_texts_of(message.old), _texts_of(message.new))
             yield message_change(message, "comment", *shown)
         for signal in message.signals:
             before, after = _texts(signal.old), _texts(signal.new)
-            if not pairing.languages.same(before, after):
+            if before != after and not pairing.languages.same(before, after):
                 yield signal_change(signal, "comment", *_shown(before, after))
 
 
 def _of_protocol(pairing: Pairing) -> Iterator[Change]:
     """Of the protocol itself, its nodes, and what only a spec says of buses and transfers."""
     old, new = pairing.old, pairing.new
-    if not pairing.languages.same(_texts(old), _texts(new), _numbered(old), _numbered(new)):
+    if _texts(old) != _texts(new) and not pairing.languages.same(
+        _texts(old), _texts(new), _numbered(old), _numbered(new)
+    ):
         yield protocol_change("protocol", "comment", *_shown(_texts(old), _texts(new)))
     pairs: list[tuple[str, Text, Text]] = [
         (after.name, _texts(before), _texts(after)) for before, after in pairing.nodes
@@ -49,16 +51,18 @@ def _of_protocol(pairing: Pairing) -> Iterator[Change]:
             if before and after
         ]
     for subject, before, after in pairs:
-        if not pairing.languages.same(before, after):
+        if before != after and not pairing.languages.same(before, after):
             yield protocol_change(subject, "comment", *_shown(before, after))
 
 
-def _same_message(languages: Languages, old: Message, new: Message) -> bool:
-    if languages.both_bilingual:
-        return (_texts(old), old.condition) == (_texts(new), new.condition)
+def _same_message(pairing: Pairing, old: Message, new: Message) -> bool:
+    if (_texts(old), old.condition) == (_texts(new), new.condition):
+        return True
+    if pairing.languages.both_bilingual:
+        return False
     # The comment repeats the period, which is a promise of its own.
     told = dataclasses.replace(new, period=old.period).comment() if new.condition else ""
-    return languages.same(_texts_of(old), _texts_of(new), (), (told,) if told else ())
+    return pairing.languages.same(_texts_of(old), _texts_of(new), (), (told,) if told else ())
 
 
 def _texts(item: Protocol | Message | Signal | Node | Bus) -> Text:

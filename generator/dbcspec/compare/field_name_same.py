@@ -10,7 +10,7 @@ from dbcspec.model import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old.python_name, signal.new.python_name
         # A renamed signal takes its field with it.
         if old != new and signal.old.name == signal.new.name:

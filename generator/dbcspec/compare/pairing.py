@@ -8,7 +8,7 @@ breaks no promise, and is most of any real pair.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from operator import attrgetter
@@ -72,10 +72,10 @@ class Pairing:
     removed_buses: tuple[Bus, ...]
     added_buses: tuple[Bus, ...]
 
-    def signals(self) -> Iterator[SignalPair]:
+    @cached_property
+    def signals(self) -> tuple[SignalPair, ...]:
         """Every signal that is in both and differs in anything."""
-        for message in self.messages:
-            yield from message.signals
+        return tuple(signal for message in self.messages for signal in message.signals)
 
     @cached_property
     def languages(self) -> Languages:

@@ -97,7 +97,7 @@ def in_signals(word: str, value: Callable[[Signal], T], show: Callable[[T], str]
     """A check that one value of each signal stays; ``word`` is what people call it."""
 
     def check(pairing: Pairing) -> Iterator[Change]:
-        for signal in pairing.signals():
+        for signal in pairing.signals:
             old, new = value(signal.old), value(signal.new)
             if old != new:
                 yield signal_change(signal, word, show(old), show(new))

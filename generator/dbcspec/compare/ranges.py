@@ -15,10 +15,11 @@ def changed_ranges(pairing: Pairing) -> Iterator[SignalPair]:
 
     Limits that are all that the bits can hold, before and after, only follow length and scale.
     """
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = _limits(signal.old), _limits(signal.new)
-        follows = old == _all_that_fits(signal.old) and new == _all_that_fits(signal.new)
-        if old != new and not follows:
+        if old != new and not (
+            old == _all_that_fits(signal.old) and new == _all_that_fits(signal.new)
+        ):
             yield signal
 
 

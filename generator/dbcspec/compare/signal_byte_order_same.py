@@ -11,7 +11,7 @@ from dbcspec.model import Signal
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old, signal.new
         if old.byte_order is not new.byte_order and not _on_the_same_bits(old, new):
             yield signal_change(signal, "byte order", old.byte_order.value, new.byte_order.value)

@@ -10,7 +10,7 @@ from dbcspec.compare.spec_only import SPEC_ONLY
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old, signal.new
         for word, before, after in (
             ("invalid code", old.invalid_code, new.invalid_code),

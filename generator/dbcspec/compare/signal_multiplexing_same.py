@@ -10,18 +10,18 @@ from dbcspec.model import Signal
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old, signal.new
         multiplexer = signal.renamed.get(old.multiplexer, old.multiplexer)
-        before = (old.is_selector, multiplexer, sorted(old.selectors))
-        after = (new.is_selector, new.multiplexer, sorted(new.selectors))
+        before = (old.is_selector, multiplexer, frozenset(old.selectors))
+        after = (new.is_selector, new.multiplexer, frozenset(new.selectors))
         if before != after:
             yield signal_change(signal, "multiplexing", _text(old), _text(new))
 
 
 def _text(signal: Signal) -> str:
     parts = ["selector"] if signal.is_selector else []
-    if signal.multiplexer:
+    if signal.multiplexer or signal.selectors:
         parts.append(f"{signal.multiplexer} = {listed(map(str, signal.selectors))}")
     return ", ".join(parts)
 

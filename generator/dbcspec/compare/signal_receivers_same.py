@@ -9,7 +9,7 @@ from dbcspec.compare.promise import Breaks, Change, Class, Promise, listed, sign
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old.receivers, signal.new.receivers
         if old != new and set(pairing.continued(old)) != set(new):
             yield signal_change(signal, "receivers", listed(old), listed(new))

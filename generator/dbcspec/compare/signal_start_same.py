@@ -9,7 +9,7 @@ from dbcspec.compare.promise import Breaks, Change, Class, Promise, signal_chang
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old, signal.new
         # Start bits of different byte orders count from different ends.
         if old.byte_order is new.byte_order and old.start != new.start:

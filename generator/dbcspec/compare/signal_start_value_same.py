@@ -11,7 +11,7 @@ from dbcspec.model import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old.start_value, signal.new.start_value
         if old != new and not start_follows_invalid(pairing, signal):
             yield signal_change(signal, "start value", str(old), str(new))

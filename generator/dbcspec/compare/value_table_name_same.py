@@ -15,7 +15,7 @@ _COUNTED = re.compile(r"_\d+$")
 
 def _check(pairing: Pairing) -> Iterator[Change]:
     seen: set[tuple[str, str]] = set()
-    for signal in pairing.signals():
+    for signal in pairing.signals:
         old, new = signal.old.value_table, signal.new.value_table
         if (
             old is not None

@@ -32,10 +32,9 @@ def kind_of(message: Message, signal: Signal) -> Kind:
     meanings = value_codes(signal)
     if meanings and all([*map(ord, code.english)] == [code.value] for code in meanings):
         return Kind.CHARACTER
-    if meanings and not is_numbering(meanings):
-        return Kind.LABELLED
-    plain = signal.factor == 1 and signal.offset == 0 and not signal.unit
-    return Kind.NUMBER if plain else Kind.PHYSICAL
+    if signal.factor != 1 or signal.offset or signal.unit:
+        return Kind.PHYSICAL
+    return Kind.LABELLED if meanings and not is_numbering(meanings) else Kind.NUMBER
 
 
 def enums(messages: tuple[Message, ...]) -> dict[ValueTable, tuple[Signal, ...]]:
