@@ -29,7 +29,7 @@ def run(arguments: Sequence[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a code page without Chinese shows ? instead
-    parser = _parser()
+    parser = command_line()
     options = parser.parse_args(arguments)
     try:
         command: Callable[[argparse.Namespace], int] = options.run
@@ -51,7 +51,8 @@ def run(arguments: Sequence[str]) -> int:
         return 1
 
 
-def _parser() -> argparse.ArgumentParser:
+def command_line() -> argparse.ArgumentParser:
+    """The parser of all commands."""
     parser = argparse.ArgumentParser(
         prog="dbcspec",
         description="A CAN protocol as data: tables in YAML in, DBC files and Python stubs out.",

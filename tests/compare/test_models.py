@@ -51,14 +51,14 @@ PLACES_OF = {
 """Places of the model that a source without the aspect is silent about."""
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(protocols)
 def test_a_protocol_is_no_different_from_an_equal_one(protocol: Protocol) -> None:
     assert compare(protocol, protocol) == []
     assert compare(protocol, copy.deepcopy(protocol)) == []
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(protocols, st.randoms(use_true_random=False))
 def test_a_change_in_any_one_place_is_found_in_both_directions(
     protocol: Protocol, random: Random
@@ -69,7 +69,7 @@ def test_a_change_in_any_one_place_is_found_in_both_directions(
     assert compare(changed, protocol), where
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(protocols, protocols)
 def test_two_protocols_give_findings_unless_they_are_equal(old: Protocol, new: Protocol) -> None:
     assert bool(compare(old, new)) == (old != new)
@@ -86,7 +86,7 @@ def test_what_one_side_cannot_say_is_no_difference(aspect: Aspect, protocol: Pro
             assert compare(silent, protocol) == [], where
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(protocols, protocols)
 def test_findings_say_what_a_report_needs(old: Protocol, new: Protocol) -> None:
     known = {promise.id: promise for promise in PROMISES}

@@ -7,6 +7,7 @@ signal starts at its most significant bit and runs down the byte, then on at the
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from fractions import Fraction
 
@@ -60,6 +61,13 @@ def physical_value(signal: Signal, raw: int) -> Fraction:
     return raw * Fraction(signal.factor) + Fraction(signal.offset)
 
 
+def raw_range(signal: Signal) -> range:
+    """The raw values whose physical value lies inside the printed range; the scale must rise."""
+    ends = (Fraction(signal.minimum), Fraction(signal.maximum))
+    low, high = ((end - Fraction(signal.offset)) / Fraction(signal.factor) for end in ends)
+    return range(math.ceil(low), math.floor(high) + 1)
+
+
 def labels(signal: Signal) -> dict[int, str]:
     """The English labels of a signal's codes."""
     table = signal.value_table
@@ -68,6 +76,4 @@ def labels(signal: Signal) -> dict[int, str]:
 
 def is_defined(signal: Signal, raw: int) -> bool:
     """Whether the standard gives a raw value a meaning: inside the range, or a labelled code."""
-    return raw in labels(signal) or Fraction(signal.minimum) <= physical_value(
-        signal, raw
-    ) <= Fraction(signal.maximum)
+    return raw in labels(signal) or raw in raw_range(signal)

@@ -20,6 +20,7 @@ class Commands(Protocol):
 
     def add_parser(self, name: str, *, help: str, description: str) -> argparse.ArgumentParser:
         """Declare a command."""
+        ...
 
 
 def project_option(parser: argparse.ArgumentParser) -> None:
