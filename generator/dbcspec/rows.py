@@ -259,6 +259,20 @@ class Spec:
                 if row.name not in self.standard.reserved:
                     yield table, row
 
+    def explanations(self) -> dict[tuple[str, str], list[tuple[SignalTable, SignalRow]]]:
+        """The rows that explain each field, by message and field name; empty where none does.
+
+        Rows for that very message go before rows for a signal of that name in any message.
+        """
+        rows: dict[str, list[tuple[SignalTable, SignalRow]]] = {}
+        for table, row in self.rows():
+            rows.setdefault(row.signal, []).append((table, row))
+        return {
+            (message.name, field.name): rows.get(f"{message.name}.{field.name}")
+            or rows.get(field.name, [])
+            for message, field in self.fields()
+        }
+
     def fields(self) -> Iterator[tuple[MessageRow, FieldRow]]:
         """Every signal of the annex with its message, reserved fields left out."""
         for message in self.messages.messages:

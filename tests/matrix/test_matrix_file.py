@@ -22,32 +22,6 @@ from emit.other_protocol import OTHER, signal
 from dbcspec.emit.matrix import emit_matrix
 from dbcspec.model import Message, Protocol
 
-_BRIEF = {
-    "报文名称": "Msg Name",
-    "报文标识符": "Msg ID",
-    "帧格式": "Frame Format",
-    "发送类型": "Send Type",
-    "周期": "Cycle Time (ms)",
-    "报文长度": "Msg Length (Byte)",
-    "信号名称": "Signal Name",
-    "信号描述": "Signal Description",
-    "排列格式": "Byte Order",
-    "起始字节": "Start Byte",
-    "起始位": "Start Bit",
-    "信号长度": "Bit Length",
-    "数据类型": "Data Type",
-    "精度": "Resolution",
-    "偏移量": "Offset",
-    "物理最小值": "Min",
-    "物理最大值": "Max",
-    "初始值": "Initial Value (Hex)",
-    "无效值": "Invalid Value (Hex)",
-    "单位": "Unit",
-    "信号值描述": "Signal Value Description",
-    "复用": "Multiplexing",
-    "标准出处": "Reference",
-    "勘误": "Errata",
-}
 _RISKY = ("=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "=cmd|' /C calc'!A0", "#N/A")
 
 

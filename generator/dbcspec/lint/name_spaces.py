@@ -48,8 +48,23 @@ def name_spaces(subject: Subject) -> Iterator[list[Named]]:
         yield tables if Aspect.VALUE_TABLE_NAMES in protocol.carries else []
     yield _nodes(subject)
     yield _buses(subject)
-    signals = [_signals(each, places) for each in protocol.messages]
-    yield from [[each for space in signals for each in space]] if subject.spec else signals
+    yield from _signal_spaces(subject, places)
+
+
+def _signal_spaces(subject: Subject, places: Places) -> Iterator[list[Named]]:
+    """One space for signals that tables explain by their name alone, else one for each message."""
+    rows = subject.spec.explanations() if subject.spec else {}
+    shared: list[Named] = []
+    for message in subject.protocol.messages:
+        signals = _signals(message, places)
+        by_name = {
+            each.name
+            for each in message.signals
+            if any(not row.message for _, row in rows.get((message.name, each.name), ()))
+        }
+        shared += [each for each in signals if each.name in by_name]
+        yield [each for each in signals if each.name not in by_name]
+    yield shared
 
 
 def _signals(message: Message, places: Places) -> list[Named]:

@@ -13,10 +13,15 @@ class Places:
 
     def __init__(self, subject: Subject) -> None:
         spec = subject.spec
-        self._rows: dict[str, SignalRow] = {}
+        explained = spec.explanations() if spec else {}
+        self._rows: dict[Location, SignalRow] = {
+            field.where: explained[message.name, field.name][0][1]
+            for message, field in (spec.fields() if spec else ())
+            if explained[message.name, field.name]
+        }
+        self._by_signal: dict[str, SignalRow] = {}
         for _, row in spec.rows() if spec else ():
-            if row.name:
-                self._rows.setdefault(row.name, row)
+            self._by_signal.setdefault(row.signal, row)
         self._fields = {field.where: field for _, field in spec.fields()} if spec else {}
         self._messages = {row.where: row for row in spec.messages.messages} if spec else {}
         self._naming = spec.standard.value_tables if spec else {}
@@ -28,7 +33,7 @@ class Places:
 
     def meaning(self, signal: Signal, key: str) -> Location:
         """A key of the table row that explains a signal."""
-        row = self._rows.get(signal.name)
+        row = self._rows.get(signal.where)
         return row.where_is(key) if row else signal.where
 
     def layout(self, signal: Signal, key: str) -> Location:
@@ -48,7 +53,10 @@ class Places:
     def codes(self, table: ValueTable, code: int | None = None) -> Location:
         """The code cell that makes a value table; with ``code`` the cell of its English label."""
         user = self._users.get(table.name)
-        row = self._rows.get(self._naming.get(table.name, user.name if user else ""))
+        if table.name in self._naming:
+            row = self._by_signal.get(self._naming[table.name])
+        else:
+            row = self._rows.get(user.where) if user else None
         if row:
             return row.where_is("english_codes" if code in row.english_codes else "codes")
         return user.where if user else NOWHERE

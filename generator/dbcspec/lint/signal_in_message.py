@@ -11,15 +11,19 @@ from dbcspec.lint.rule import Found, Rule, Subject
 def _check(subject: Subject) -> Iterator[Found]:
     if subject.spec is None:
         return
-    fields = {field.name for _, field in subject.spec.fields()}
+    fields = {
+        name
+        for message, field in subject.spec.fields()
+        for name in (field.name, f"{message.name}.{field.name}")
+    }
     for table, row in subject.spec.rows():
         if not row.name:
             text = f"row {row.no} has no name: give it one by an erratum"
             yield Found(row.where, f"{table.stem}/{row.no}", text)
-        elif row.name not in fields:
-            close = get_close_matches(row.name, fields, n=1)
+        elif row.signal not in fields:
+            close = get_close_matches(row.signal, fields, n=1)
             hint = f" (the closest is {close[0]})" if close else ""
-            text = f"no message has {row.name}{hint}: correct the name, or add it to the annex"
+            text = f"no message has {row.signal}{hint}: correct the name, or add it to the annex"
             yield Found(row.where_is("name"), row.name, text)
 
 

@@ -12,8 +12,9 @@ def _check(subject: Subject) -> Iterator[Found]:
     if subject.spec is None:
         return
     explained = {row.name for _, row in subject.spec.rows()}
+    rows = subject.spec.explanations()
     for message, field in subject.spec.fields():
-        if field.name not in explained:
+        if not rows[message.name, field.name]:
             close = get_close_matches(field.name, explained, n=1)
             hint = f" (the closest is {close[0]})" if close else ""
             text = (

@@ -18,11 +18,9 @@ def _check(subject: Subject) -> Iterator[Found]:
 
 
 def _lengths(spec: Spec) -> Iterator[Found]:
-    fields: dict[str, list[FieldRow]] = {}
-    for _, field in spec.fields():
-        fields.setdefault(field.name, []).append(field)
-    for _, row in spec.rows():
-        for field in fields.get(row.name, ()):
+    explained = spec.explanations()
+    for message, field in spec.fields():
+        for _, row in explained[message.name, field.name]:
             if row.length != field.length:
                 yield _differ(row, field, row.name)
 
@@ -38,14 +36,12 @@ def _differ(row: SignalRow, field: FieldRow, subject: str) -> Found:
 
 def _senders(spec: Spec) -> Iterator[Found]:
     nodes = node_names(spec)
-    rows: dict[str, list[SignalRow]] = {}
-    for _, row in spec.rows():
-        rows.setdefault(row.name, []).append(row)
+    explained = spec.explanations()
     for message in spec.messages.messages:
         sent = [
             (row, nodes.get(row.route[0], row.route[0]))
             for field in message.signals
-            for row in rows.get(field.name, ())
+            for _, row in explained.get((message.name, field.name), ())
             if row.route
         ]
         if not sent:

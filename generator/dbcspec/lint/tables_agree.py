@@ -17,7 +17,7 @@ def _check(subject: Subject) -> Iterator[Found]:
     said = _sayings(subject.spec)
     first: dict[str, SignalRow] = {}
     for _, row in subject.spec.rows():
-        other = first.setdefault(row.name, row)
+        other = first.setdefault(row.signal, row)
         if other is row or not row.name:
             continue
         here, there = said(row), said(other)

@@ -23,7 +23,10 @@ class Use(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A text, whose it is, and what; ``english`` where it stands in the ASCII files."""
+    """A text, whose it is, and what; ``english`` where it stands in the ASCII files.
+
+    There a title stands in for an English text that is missing.
+    """
 
     where: Location
     subject: str
@@ -40,7 +43,9 @@ def texts(subject: Subject) -> Iterator[Text]:
     yield from _of_spec(subject.spec) if subject.spec else _of_model(subject.protocol)
     for message in subject.protocol.messages:
         where, name = places.message(message, "english"), message.name
-        yield Text(where, name, f"{_comment(subject)} of {name}", message.english, message=name)
+        # Without an English text of its own, the title stands in the English files.
+        text = message.english or (message.title if subject.spec else "")
+        yield Text(where, name, f"{_comment(subject)} of {name}", text, message=name)
     yield from _of_signals(subject, places)
     yield from _labels(subject.protocol, places)
 
@@ -58,7 +63,8 @@ def _of_signals(subject: Subject, places: Places) -> Iterator[Text]:
         yield Text(where, name, f"{called} of {name}", signal.english, message=owner)
         if signal.title != signal.english:
             where, what = places.meaning(signal, "title"), f"title of {name}"
-            yield Text(where, name, what, signal.title, english=False, message=owner)
+            alone = not signal.english
+            yield Text(where, name, what, signal.title, english=alone, message=owner)
         where, what = places.meaning(signal, "unit"), f"unit {signal.unit!r} of {name}"
         yield Text(where, name, what, signal.unit, use=Use.UNIT, message=owner)
 
