@@ -8,7 +8,7 @@ from pathlib import Path
 from dbcspec.commands.common import Commands, print_report, report_options
 from dbcspec.compare.approvals import APPROVAL_USED, apply_approvals, read_approvals
 from dbcspec.compare.promise import Class
-from dbcspec.compare.run import RULES, compare
+from dbcspec.compare.run import RULES, compare, worst
 from dbcspec.read.doors import open_side
 from dbcspec.report.item import LEVELS, Report
 
@@ -40,5 +40,5 @@ def _compare(options: argparse.Namespace) -> int:
         items = apply_approvals(items, read_approvals(options.approvals))
     title = f"{options.old} → {options.new}"
     print_report(options, Report(title=title, items=items, rules=(*RULES, APPROVAL_USED)))
-    failing = LEVELS[: LEVELS.index(options.fail_on) + 1]
-    return 1 if any(item.level in failing for item in items) else 0
+    gravest = worst(items)
+    return 1 if gravest and LEVELS.index(gravest) <= LEVELS.index(options.fail_on) else 0
