@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,26 +65,39 @@ def foreign_artifacts(protocol: Protocol, name: str, runtime: str) -> dict[str, 
 def write(root: Path, files: Mapping[str, bytes]) -> list[str]:
     """Write what differs and return its paths; raises `ReadError` where a file cannot be written.
 
-    All files are first written beside their targets and then moved into place, so that a
-    failure leaves the last generation whole.
+    A failure leaves the last generation whole.
     """
     changed = [name for name, data in files.items() if _bytes(root / name) != data]
-    waiting: list[tuple[Path, Path]] = []
-    try:
-        for name in changed:
-            target = root / name
+    targets = {root / name: files[name] for name in changed}
+    for target in targets:
+        with _named(target.parent):
             target.parent.mkdir(parents=True, exist_ok=True)
-            beside = target.with_name(f".{target.name}.new")
-            waiting.append((beside, target))
-            beside.write_bytes(files[name])
-        for beside, target in waiting:
-            os.replace(beside, target)  # noqa: PTH105 - replaces in one step on every system
-    except OSError as error:
-        raise ReadError(f"{error.filename}: cannot be written: {error.strerror}") from None
-    finally:
-        for beside, _ in waiting:
-            beside.unlink(missing_ok=True)
+    put_in_place(targets)
     return changed
+
+
+def put_in_place(files: Mapping[Path, bytes]) -> None:
+    """Write all files beside their places, then move them there; raises `ReadError`."""
+    waiting = {target: target.with_name(f".{target.name}.new") for target in files}
+    try:
+        for target, beside in waiting.items():
+            with _named(target):
+                beside.write_bytes(files[target])
+        for target, beside in waiting.items():
+            with _named(target):
+                beside.replace(target)
+    finally:
+        for beside in waiting.values():
+            beside.unlink(missing_ok=True)
+
+
+@contextmanager
+def _named(path: Path) -> Iterator[None]:
+    """Turn what goes wrong while a path is written into one line that names it."""
+    try:
+        yield
+    except OSError as error:
+        raise ReadError(f"{path}: cannot be written: {error.strerror}") from None
 
 
 def verify(

@@ -16,6 +16,7 @@ from enum import Enum
 from functools import cached_property
 
 from dbcspec.errors import Location
+from dbcspec.numbers import number
 
 NOWHERE = Location("")
 
@@ -292,5 +293,5 @@ def _canonical(value: object) -> str:
     if isinstance(value, tuple):
         return f"({','.join(map(_canonical, value))})"
     if isinstance(value, Decimal):
-        return format(value.normalize(), "f")
+        return number(value)
     return repr(value.name) if isinstance(value, Enum) else repr(value)

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dbcspec.compiled import compile_spec
 from dbcspec.config import Config
-from dbcspec.errata import apply_errata
-from dbcspec.errors import Fault, SpecError
+from dbcspec.errors import Fault
 from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.model import Protocol
-from dbcspec.resolve import resolve
 from dbcspec.rows import Spec
-from dbcspec.spec_folder import read_spec
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,11 +38,5 @@ class Project:
 
 def load(config: Config) -> Project:
     """Read, correct and resolve; raises `SpecError` with every fault that prevents it."""
-    printed = read_spec(config.root / config.spec, config.spec)
-    spec, errata_faults = apply_errata(printed)
-    try:
-        protocol = resolve(spec, config.name)
-    except SpecError as error:
-        # An erratum that failed is often why something is missing: show both.
-        raise SpecError([*error.faults, *errata_faults]) from None
-    return Project(config, spec, protocol, errata_faults)
+    compiled = compile_spec(config.root / config.spec, config.spec, config.name)
+    return Project(config, compiled.spec, compiled.protocol, compiled.errata_faults)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import TypeVar
 
@@ -16,7 +16,6 @@ from dbcspec.schema import Record
 from dbcspec.value_tables import ValueTables
 
 T = TypeVar("T")
-_Explained = tuple[SignalTable, SignalRow]
 
 _SEND_TYPES = {
     "Cyclic": model.SendType.CYCLIC,
@@ -45,9 +44,7 @@ class _Resolver:
         self._aliases = {
             alias: node.name for node in spec.standard.nodes for alias in (node.name, *node.aliases)
         }
-        self._rows: dict[str, list[_Explained]] = {}
-        for table, row in spec.rows():
-            self._rows.setdefault(row.signal, []).append((table, row))
+        self._explained = spec.explanations()
         self._value_tables = ValueTables(spec, self.faults)
         self._conditions = {
             message: timing.condition
@@ -127,9 +124,11 @@ class _Resolver:
         signals = tuple(
             self._signal(row, field, prefixes, filled_in=field.name in counters | checksums)
             for field in fields
-            if self._rows_of(row, field)
+            if self._explained[row.name, field.name]
         )
-        explained = [entry for field in fields for entry in self._rows_of(row, field)[:1]]
+        explained = [
+            entry for field in fields for entry in self._explained[row.name, field.name][:1]
+        ]
         routes = [signal_row.route for _, signal_row in explained if signal_row.route]
         tables = {id(table): table for table, _ in explained}.values()
         period = self._given(row, "period", row.period, 0)
@@ -157,18 +156,13 @@ class _Resolver:
             return row.extended == "yes"
         return (self._spec.standard.frame_format or "ExtendedCAN") != "StandardCAN"
 
-    def _rows_of(self, message: MessageRow, field: FieldRow) -> Sequence[_Explained]:
-        """The rows that explain a field: those for its message, else those for any."""
-        own = self._rows.get(f"{message.name}.{field.name}", ())
-        return own or self._rows.get(field.name, ())
-
     def _node(self, printed: str) -> str:
         return self._aliases.get(printed, printed)
 
     def _signal(
         self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], *, filled_in: bool
     ) -> model.Signal:
-        rows = self._rows_of(message, field)
+        rows = self._explained[message.name, field.name]
         row = rows[0][1]
         length = self._given(field, "length", field.length, 1)
         is_float = field.type == "float"

@@ -7,10 +7,10 @@ import string
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from dbcspec.emit.dbc import number
 from dbcspec.errors import ReadError
 from dbcspec.layout import bits
 from dbcspec.model import Message, Protocol, Signal, ValueTable
+from dbcspec.numbers import number
 
 _LETTERS = string.ascii_lowercase + string.ascii_uppercase
 _WIDTH = 100

@@ -9,8 +9,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 
-from dbcspec.emit.dbc import number
 from dbcspec.model import Aspect, Message, Node, Protocol, Request, Signal, Transfer, ValueTable
+from dbcspec.numbers import number
 
 _Fact = tuple[str, object]
 """What is said, and the value: text is quoted, None and "" are left out."""

@@ -11,9 +11,10 @@ from cantools.database.can import Database
 from emit.dbc_lines import Dbc
 from emit.other_protocol import HELLO, LONG_NAMES, OTHER, WHEELS
 
-from dbcspec.emit.dbc import emit_dbc, number
+from dbcspec.emit.dbc import emit_dbc
 from dbcspec.errors import Location
 from dbcspec.model import Bus, Protocol
+from dbcspec.numbers import number
 
 
 def rendered(protocol: Protocol = OTHER, bus: Bus | None = None) -> Dbc:

@@ -5,17 +5,20 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import typing
 from pathlib import Path
-from typing import Protocol
 
+from dbcspec.artifacts import put_in_place
 from dbcspec.config import find_config
-from dbcspec.errors import FindingsError, ReadError
+from dbcspec.errors import FindingsError
+from dbcspec.model import Protocol
 from dbcspec.project import Project, load
+from dbcspec.read.doors import open_side
 from dbcspec.report.formats import FORMATS, render
 from dbcspec.report.item import Report
 
 
-class Commands(Protocol):
+class Commands(typing.Protocol):
     """The part of argparse's subparsers that commands need."""
 
     def add_parser(self, name: str, *, help: str, description: str) -> argparse.ArgumentParser:
@@ -56,7 +59,7 @@ def print_report(options: argparse.Namespace, report: Report) -> None:
     """Write a report where the options say, whole or not at all."""
     if options.output:
         text = render(report, options.format)
-        write_file(options.output, text.encode("utf-8"))
+        put_in_place({options.output: text.encode("utf-8")})
         return
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     encoding = (sys.stdout.encoding or "ascii").lower().replace("-", "")
@@ -65,12 +68,8 @@ def print_report(options: argparse.Namespace, report: Report) -> None:
     )
 
 
-def write_file(path: Path, data: bytes) -> None:
-    """Write a file beside its place and move it there; raises `ReadError`."""
-    beside = path.with_name(f".{path.name}.new")
-    try:
-        beside.write_bytes(data)
-        beside.replace(path)
-    except OSError as error:
-        beside.unlink(missing_ok=True)
-        raise ReadError(f"{path}: cannot be written: {error.strerror}") from None
+def source_protocol(options: argparse.Namespace) -> Protocol:
+    """The protocol of the file that the options name, else the project's."""
+    if options.source:
+        return open_side(options.source, encoding=options.encoding).protocol
+    return load_project(options).protocol

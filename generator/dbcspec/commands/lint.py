@@ -6,13 +6,13 @@ import argparse
 import sys
 from pathlib import Path
 
+from dbcspec.artifacts import put_in_place
 from dbcspec.commands.common import (
     Commands,
     load_project,
     print_report,
     project_option,
     report_options,
-    write_file,
 )
 from dbcspec.compare.run import RULES as PROMISES
 from dbcspec.config import read_lint_config, selected
@@ -23,7 +23,7 @@ from dbcspec.lint.options import Options
 from dbcspec.lint.rule import Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.read.doors import open_side
-from dbcspec.read.encoding import find_encoding, read_text
+from dbcspec.read.encoding import read_encoded
 from dbcspec.report.item import Report
 from dbcspec.report.rules import print_rules
 
@@ -54,7 +54,7 @@ def _lint(options: argparse.Namespace) -> int:
     if options.fix:
         _fix(options)
     if options.target:
-        found = Options() if options.config is None else read_lint_config(options.config)
+        found = Options()
         side = open_side(options.target, encoding=options.encoding)
         subject = Subject(
             protocol=side.protocol,
@@ -66,9 +66,11 @@ def _lint(options: argparse.Namespace) -> int:
         title = options.target
     else:
         project = load_project(options)
-        found = project.config.lint if options.config is None else read_lint_config(options.config)
+        found = project.config.lint
         subject = project.subject()
         title = project.config.spec
+    if options.config:
+        found = read_lint_config(options.config)
     if options.select:
         found = selected(found, options.select.split(","))
     items = to_items(lint_with(subject, found))
@@ -78,23 +80,21 @@ def _lint(options: argparse.Namespace) -> int:
 
 def _dbc_text(path: Path, encoding: str | None) -> str | None:
     """The text of a DBC file on disk, breaks as they are; None for anything else."""
-    if path.suffix.lower() != ".dbc" or not path.is_file():
-        return None
-    read_text(path, encoding)  # Says what is wrong with a file that is no text.
-    data = path.read_bytes()
-    return raw_text(data, encoding or find_encoding(data) or "utf-8")
+    return raw_text(*read_encoded(path, encoding)) if _is_dbc(path) else None
+
+
+def _is_dbc(path: Path) -> bool:
+    return path.suffix.lower() == ".dbc" and path.is_file()
 
 
 def _fix(options: argparse.Namespace) -> None:
     """Mend the target file in place, and say on stderr what was done."""
     path = Path(options.target or "")
-    text = _dbc_text(path, options.encoding)
-    if text is None:
+    if not _is_dbc(path):
         raise ReadError("--fix mends a DBC file: name one")
-    data = path.read_bytes()
-    fixed, done = fix_bytes(data, options.encoding or find_encoding(data) or "utf-8")
+    fixed, done = fix_bytes(*read_encoded(path, options.encoding))
     if done:
-        write_file(path, fixed)
+        put_in_place({path: fixed})
     for each in done:
         print(f"{path}: {each}", file=sys.stderr)
 

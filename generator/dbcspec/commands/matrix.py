@@ -6,14 +6,14 @@ import argparse
 import sys
 from pathlib import Path
 
-from dbcspec.artifacts import write
+from dbcspec.artifacts import put_in_place, write
 from dbcspec.commands.common import (
     Commands,
     load_project,
     print_report,
     project_option,
     report_options,
-    write_file,
+    source_protocol,
 )
 from dbcspec.compare.run import RULES, compare
 from dbcspec.emit.matrix import emit_matrix
@@ -56,12 +56,9 @@ def add(commands: Commands) -> None:
 
 
 def _export(options: argparse.Namespace) -> int:
-    if options.source:
-        protocol = open_side(options.source, encoding=options.encoding).protocol
-    else:
-        protocol = load_project(options).protocol
+    protocol = source_protocol(options)
     path = options.output or Path(f"{protocol.name}.xlsx")
-    write_file(path, emit_matrix(protocol))
+    put_in_place({path: emit_matrix(protocol)})
     print(f"wrote {path}")
     return 0
 

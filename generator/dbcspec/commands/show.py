@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from dbcspec.commands.common import Commands, load_project, project_option
+from dbcspec.commands.common import Commands, project_option, source_protocol
 from dbcspec.read.doors import open_side
 from dbcspec.show import find_message, show
 from dbcspec.textconv import textconv
@@ -28,10 +28,7 @@ def add(commands: Commands) -> None:
 
 
 def _show(options: argparse.Namespace) -> int:
-    if options.source:
-        protocol = open_side(options.source, encoding=options.encoding).protocol
-    else:
-        protocol = load_project(options).protocol
+    protocol = source_protocol(options)
     print(show(protocol, find_message(protocol, options.name)), end="")
     return 0
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from decimal import Decimal
 from enum import IntEnum, StrEnum
 from typing import TypeVar
 
@@ -158,12 +157,6 @@ def fresh(message: str, subject: str, what: str, new: str, where: Location) -> C
 def from_to(word: str, old: str, new: str) -> str:
     """``factor 0.1 → 1``; what is empty is called none."""
     return f"{word} {old or 'none'} → {new or 'none'}"
-
-
-def number(value: Decimal) -> str:
-    """A plain decimal: no exponent, no trailing zeros."""
-    text = format(value.normalize(), "f")
-    return "0" if text == "-0" else text
 
 
 def listed(names: Iterable[str]) -> str:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from decimal import Decimal
 
 from dbcspec.compare.pairing import Pairing, SignalPair
-from dbcspec.compare.promise import number
 from dbcspec.model import Signal
+from dbcspec.numbers import number
 
 
 def changed_ranges(pairing: Pairing) -> Iterator[SignalPair]:

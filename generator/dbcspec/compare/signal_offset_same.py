@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dbcspec.compare.promise import Breaks, Class, Promise, in_signals, number
+from dbcspec.compare.promise import Breaks, Class, Promise, in_signals
+from dbcspec.numbers import number
 
 PROMISE = Promise(
     "signal-offset-same",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from decimal import Decimal
 
 from dbcspec.emit.long_names import LongName, shortened
 from dbcspec.emit.multiplexing import marker, selector_lists
@@ -22,6 +21,7 @@ from dbcspec.model import (
     Signal,
     ValueTable,
 )
+from dbcspec.numbers import number
 
 NOBODY = "Vector__XXX"
 _EXTENDED = 0x8000_0000
@@ -83,12 +83,6 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
 def dbc_id(message: Message) -> int:
     """The identifier as BO_ has it: bit 31 marks an extended frame."""
     return message.frame_id | _EXTENDED if message.extended else message.frame_id
-
-
-def number(value: Decimal) -> str:
-    """A plain decimal: leading digit, no exponent, no trailing zeros."""
-    plain = format(value.normalize(), "f")
-    return "0" if plain == "-0" else plain
 
 
 def _signal_line(signal: Signal) -> str:

@@ -11,10 +11,10 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
-from dbcspec.emit.dbc import number
 from dbcspec.layout import float_limits
 from dbcspec.model import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
 from dbcspec.naming import field_name, shared_prefix
+from dbcspec.numbers import number
 
 _PLAIN = re.compile(r"[A-Za-z0-9_一-鿿](?:[A-Za-z0-9_./%()一-鿿-]| (?=[^ ]))*")
 _UNPRINTED = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")

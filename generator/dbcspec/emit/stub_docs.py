@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import textwrap
 
-from dbcspec.emit.dbc import number
 from dbcspec.layout import float_limits
 from dbcspec.model import Message, Signal
+from dbcspec.numbers import number
 
 _WIDTH = 92
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from decimal import Decimal
 
 from dbcspec.lint.places import Places, has_room
 from dbcspec.lint.rule import Found, Rule, Subject
 from dbcspec.model import Signal
+from dbcspec.numbers import number
 
 
 def _check(subject: Subject) -> Iterator[Found]:
@@ -19,7 +19,7 @@ def _check(subject: Subject) -> Iterator[Found]:
 
 
 def _fault(signal: Signal) -> str | None:
-    shown = f"{_plain(signal.minimum)}~{_plain(signal.maximum)}"
+    shown = f"{number(signal.minimum)}~{number(signal.maximum)}"
     if signal.minimum == signal.maximum == 0:
         return "the range 0~0 means none at all in a DBC file: give the real one"
     if signal.minimum >= signal.maximum:
@@ -30,14 +30,10 @@ def _fault(signal: Signal) -> str | None:
     if signal.minimum < low or signal.maximum > high:
         bits = "bit holds" if signal.length == 1 else "bits hold"
         return (
-            f"the range {shown} is not within {_plain(low)}~{_plain(high)}, what {signal.length} "
+            f"the range {shown} is not within {number(low)}~{number(high)}, what {signal.length} "
             f"{bits}: correct range, factor or offset"
         )
     return None
-
-
-def _plain(value: Decimal) -> str:
-    return f"{value.normalize():f}"
 
 
 RULE = Rule("range-fits-bits", "a signal's range is a range, and its bits can hold it", _check)

@@ -6,14 +6,12 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from dbcspec.errata import apply_errata
-from dbcspec.errors import Fault, ReadError, SpecError
+from dbcspec.compiled import compile_spec
+from dbcspec.errors import Fault, ReadError
 from dbcspec.model import Protocol
 from dbcspec.read.dbc import FORMATS, read_any
 from dbcspec.read.git import checked_out, split_revision
-from dbcspec.resolve import resolve
 from dbcspec.rows import Spec
-from dbcspec.spec_folder import read_spec
 
 MATRIX = ".xlsx"
 """How the name of a matrix ends."""
@@ -91,14 +89,10 @@ def _read_matrix(path: Path, title: str) -> Protocol:
 
 
 def _open_spec(folder: Path, title: str) -> Side:
-    printed = read_spec(folder, title.rstrip("/\\") or title)
-    spec, errata_faults = apply_errata(printed)
-    try:
-        protocol = resolve(spec, _project_name(folder))
-    except SpecError as error:
-        # An erratum that failed is often why something is missing: show both.
-        raise SpecError([*error.faults, *errata_faults]) from None
-    return Side(protocol=protocol, title=title, spec=spec, errata_faults=errata_faults)
+    made = compile_spec(folder, title.rstrip("/\\") or title, _project_name(folder))
+    return Side(
+        protocol=made.protocol, title=title, spec=made.spec, errata_faults=made.errata_faults
+    )
 
 
 def _project_name(folder: Path) -> str:

@@ -44,6 +44,13 @@ def read_text(
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+def read_encoded(path: Path, encoding: str | None = None) -> tuple[bytes, str]:
+    """The bytes of a text file and their encoding; raises `ReadError` as `read_text`."""
+    data = _read(path, str(path), LARGEST_FILE)
+    decode(data, str(path), encoding)
+    return data, encoding or find_encoding(data) or "utf-8"
+
+
 def decode(data: bytes, name: str, encoding: str | None = None) -> str:
     """The bytes of the file called ``name`` as text; see `read_text`."""
     chosen = encoding or find_encoding(data)

@@ -1,0 +1,36 @@
+"""A spec folder to the model, in one go: read, correct, resolve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from dbcspec.errata import apply_errata
+from dbcspec.errors import Fault, SpecError
+from dbcspec.model import Protocol
+from dbcspec.resolve import resolve
+from dbcspec.rows import Spec
+from dbcspec.spec_folder import read_spec
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """The corrected rows, the model, and the changes of errata that could not be made."""
+
+    spec: Spec
+    protocol: Protocol
+    errata_faults: tuple[Fault, ...]
+
+
+def compile_spec(folder: Path, shown_as: str, name: str) -> Compiled:
+    """Make the model called ``name``; raises `SpecError` with every fault that prevents it.
+
+    ``shown_as`` is the folder's path as locations shall name it.
+    """
+    spec, errata_faults = apply_errata(read_spec(folder, shown_as))
+    try:
+        protocol = resolve(spec, name)
+    except SpecError as error:
+        # An erratum that failed is often why something is missing: show both.
+        raise SpecError([*error.faults, *errata_faults]) from None
+    return Compiled(spec, protocol, errata_faults)
