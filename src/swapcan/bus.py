@@ -19,7 +19,7 @@ import can
 from swapcan.codec import Codec
 from swapcan.errors import ChecksumError, LengthError, ReceiveTimeoutError, UnknownFrameError
 from swapcan.message import Message
-from swapcan.protect import ReceiveCounters, SendCounters
+from swapcan.protect import CounterFault, ReceiveCounters, SendCounters
 
 FaultKind = Literal["length", "checksum", "counter"]
 
@@ -34,13 +34,15 @@ _WAIT_IN_THREAD = 0.1
 class Fault:
     """Something wrong with a frame that has the identifier of a known message.
 
-    ``message`` is the name of the message, ``text`` says what is wrong in a few words.
+    ``message`` is the name of the message, ``text`` says what is wrong in a few words, and
+    ``counter`` how the counter is wrong where ``kind`` is "counter".
     """
 
     kind: FaultKind
     message: str
     text: str
     frame: can.Message
+    counter: CounterFault | None = None
 
     def __str__(self) -> str:
         return f"{self.message}: {self.text}"
@@ -116,7 +118,9 @@ class Receiver:
         problem = self._counters.problem(message)
         if problem is None:
             return Received(message, frame)
-        return Received(message, frame, (self._fault("counter", message.NAME, problem, frame),))
+        self._counts["counter"] += 1
+        fault = Fault("counter", message.NAME, problem.text, frame, problem.kind)
+        return Received(message, frame, (fault,))
 
     def _fault(self, kind: FaultKind, message: str, text: str, frame: can.Message) -> Fault:
         self._counts[kind] += 1

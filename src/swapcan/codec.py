@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from types import MappingProxyType
 
 import can
 
-from swapcan.database import Entry, database
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.database import Database, Entry, database
 from swapcan.errors import ChecksumError, LengthError, UnknownFrameError
 from swapcan.message import Message
 from swapcan.protect import STANDARD_ALGORITHMS, Algorithm, expected_checksum, sealed
+from swapcan.protocol import Protocol
 
 
 class Codec:
@@ -22,10 +25,19 @@ class Codec:
         Checksum algorithms by name, for those that the standard leaves open: a function from the
         covered bytes to one byte, for example ``{"BMS_CRC": my_crc}``. Without one that checksum
         is sent as 0 and not verified.
+    protocol
+        Another protocol whose package `dbcspec generate` wrote.
     """
 
-    def __init__(self, algorithms: Mapping[str, Algorithm] | None = None) -> None:
+    def __init__(
+        self, algorithms: Mapping[str, Algorithm] | None = None, protocol: Protocol = PROTOCOL
+    ) -> None:
         self._algorithms = MappingProxyType({**STANDARD_ALGORITHMS, **(algorithms or {})})
+        self._protocol = protocol
+
+    @cached_property
+    def _database(self) -> Database:
+        return database(self._protocol)
 
     def encode(self, message: Message, *, counter: int | None = None, renew: bool = False) -> bytes:
         """The payload of a message.
@@ -42,7 +54,7 @@ class Codec:
         checksum = kind.CHECKSUM and kind.FIELDS[kind.CHECKSUM.field]
         if checksum and renew:
             raw[checksum.dbc_name] = 0
-        data = database().by_type[kind].packer.pack(raw)
+        data = self._database.by_type[kind].packer.pack(raw)
         if checksum and (renew or getattr(message, checksum.name) is None):
             return sealed(kind, data, self._algorithms)
         return data
@@ -53,7 +65,7 @@ class Codec:
         Raises `UnknownFrameError` for an identifier that the protocol has not, `LengthError` for
         a payload of another length, and `ChecksumError`, unless ``verify`` is False.
         """
-        entry = database().by_frame_id.get(frame_id)
+        entry = self._database.by_frame_id.get(frame_id)
         if entry is None:
             raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
         return self._decode(entry, data, verify=verify)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -10,14 +10,14 @@ from importlib import resources
 import cantools
 from cantools.database.can import Database as CantoolsDatabase
 
-from swapcan import _generated
-from swapcan._generated.decoders import DECODERS, Decoder
-from swapcan._generated.messages import MESSAGES
-from swapcan.errors import DatabaseError, UnknownMessageError
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.errors import DatabaseError
 from swapcan.message import Message
 from swapcan.packing import Packer
+from swapcan.protocol import Protocol
 
-DBC_NAME = f"{_generated.NAME}.dbc"
+Decoder = Callable[[Sequence[int]], Message]
+"""Raw values, in the order of the class's ``FIELDS``, to a message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,49 +37,51 @@ class Database:
     by_frame_id: Mapping[int, Entry]
 
 
-def dbc_text() -> str:
-    """The text of the DBC that this package was built with."""
-    return resources.files(_generated).joinpath(DBC_NAME).read_text("ascii")
+def dbc_text(protocol: Protocol = PROTOCOL) -> str:
+    """The text of the DBC that a protocol's package was built with."""
+    return resources.files(protocol.package).joinpath(_dbc_name(protocol)).read_text("ascii")
 
 
 def message_type(name: str) -> type[Message]:
     """The message class of that name; raises `UnknownMessageError`."""
-    for message in MESSAGES:
-        if name == message.NAME:
-            return message
-    known = ", ".join(message.NAME for message in MESSAGES)
-    raise UnknownMessageError(f"there is no message {name!r}; known: {known}")
+    return PROTOCOL.message(name)
 
 
 @cache
-def database() -> Database:
+def database(protocol: Protocol = PROTOCOL) -> Database:
     """Read the packaged DBC; raises `DatabaseError` where it does not fit the generated code."""
-    return match(dbc_text())
+    return match(dbc_text(protocol), protocol)
 
 
-def match(text: str) -> Database:
+def match(text: str, protocol: Protocol = PROTOCOL) -> Database:
     """Pair a DBC text with the generated classes; raises `DatabaseError` where they differ."""
     dbc = cantools.database.load_string(text, "dbc")
     if not isinstance(dbc, CantoolsDatabase):
         raise DatabaseError("the packaged file is no CAN database")
     attributes = dbc.dbc.attributes if dbc.dbc else {}
     digest = attributes["SpecDigest"].value if "SpecDigest" in attributes else "none"
-    if digest != _generated.DIGEST:
+    if digest != protocol.digest:
         raise DatabaseError(
-            f"{DBC_NAME} has spec digest {digest}, the generated code {_generated.DIGEST}:"
+            f"{_dbc_name(protocol)} has spec digest {digest}, the generated code {protocol.digest}:"
             " run `dbcspec generate`, or install swapcan again"
         )
-    entries = [_entry(message, dbc) for message in MESSAGES]
+    entries = [_entry(message, dbc, protocol) for message in protocol.messages]
     return Database(
         by_type={entry.type: entry for entry in entries},
         by_frame_id={entry.type.FRAME_ID: entry for entry in entries},
     )
 
 
-def _entry(message: type[Message], dbc: CantoolsDatabase) -> Entry:
+def _dbc_name(protocol: Protocol) -> str:
+    return f"{protocol.name}.dbc"
+
+
+def _entry(message: type[Message], dbc: CantoolsDatabase, protocol: Protocol) -> Entry:
     in_dbc = dbc.get_message_by_name(message.NAME)
     ours = [field.dbc_name for field in message.FIELDS.values()]
     # Decoders take raw values by position, in the order in which cantools lists signals.
     if ours != [signal.name for signal in in_dbc.signals]:
-        raise DatabaseError(f"{message.NAME} has other signals, or in another order, in {DBC_NAME}")
-    return Entry(message, Packer(in_dbc), DECODERS[message])
+        raise DatabaseError(
+            f"{message.NAME} has other signals, or in another order, in {_dbc_name(protocol)}"
+        )
+    return Entry(message, Packer(in_dbc), protocol.decoders[message])

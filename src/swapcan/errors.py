@@ -64,6 +64,10 @@ class UnknownMessageError(SwapcanError, LookupError):
     """There is no message of that name."""
 
 
+class UnknownNodeError(SwapcanError, LookupError):
+    """There is no node of that name."""
+
+
 class ReceiveTimeoutError(SwapcanError, TimeoutError):
     """No message of the protocol arrived in ``timeout`` seconds."""
 
@@ -74,3 +78,26 @@ class ReceiveTimeoutError(SwapcanError, TimeoutError):
 
 class DatabaseError(SwapcanError):
     """The DBC and the generated code of this package do not belong together."""
+
+
+class RequestError(SwapcanError):
+    """A request cannot be made: this node has no signal for it, or it is already under way."""
+
+
+class RequestTimeoutError(RequestError, TimeoutError):
+    """A request was not answered in full within ``timeout`` seconds; ``missing`` says in what."""
+
+    def __init__(self, request: str, timeout: float, missing: str) -> None:
+        self.request = request
+        self.timeout = timeout
+        self.missing = missing
+        super().__init__(f"{request}: not answered within {timeout:g} s; {missing}")
+
+
+class TransferError(SwapcanError, ValueError):
+    """A value cannot be split into frames: ``transfer`` names it, ``problem`` says why."""
+
+    def __init__(self, transfer: str, problem: str) -> None:
+        self.transfer = transfer
+        self.problem = problem
+        super().__init__(f"{transfer}: {problem}")

@@ -6,11 +6,15 @@ from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import xor
 from types import MappingProxyType
+from typing import Literal, NamedTuple
 
 from swapcan.message import Message
 
 Algorithm = Callable[[bytes], int]
 """Bytes to a checksum of one byte."""
+
+CounterFault = Literal["repeated", "skipped", "invalid"]
+"""What an alive counter did: stay as it was, leave values out, or hold none."""
 
 
 def xor8(data: bytes) -> int:
@@ -61,13 +65,20 @@ class SendCounters:
             self._next[message] = (self._next.get(message, 0) + 1) % message.COUNTER.modulus
 
 
+class CounterProblem(NamedTuple):
+    """What is wrong with a counter: which kind of fault, and in words."""
+
+    kind: CounterFault
+    text: str
+
+
 class ReceiveCounters:
     """What the alive counters of the other nodes were last, and what they should be next."""
 
     def __init__(self) -> None:
         self._last: dict[type[Message], int] = {}
 
-    def problem(self, message: Message) -> str | None:
+    def problem(self, message: Message) -> CounterProblem | None:
         """What is wrong with the counter of a message just received, or None.
 
         The first message of a kind sets the counter; so does one with a wrong counter, so that a
@@ -80,11 +91,13 @@ class ReceiveCounters:
         modulus = kind.COUNTER.modulus
         if not isinstance(value, int) or value >= modulus:
             self._last.pop(kind, None)
-            return f"counter is {value}, it runs 0 to {modulus - 1}"
+            return CounterProblem("invalid", f"counter is {value}, it runs 0 to {modulus - 1}")
         last = self._last.get(kind)
         self._last[kind] = value
         if last is None or value == (last + 1) % modulus:
             return None
         if value == last:
-            return f"counter stays at {value}"
-        return f"counter goes from {last} to {value}, expected {(last + 1) % modulus}"
+            return CounterProblem("repeated", f"counter stays at {value}")
+        expected = (last + 1) % modulus
+        text = f"counter goes from {last} to {value}, expected {expected}"
+        return CounterProblem("skipped", text)

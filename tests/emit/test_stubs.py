@@ -37,7 +37,9 @@ def others(tmp_path_factory: pytest.TempPathFactory) -> Path:
         generated = folder / name / "_generated"
         generated.mkdir(parents=True)
         (folder / name / "__init__.py").touch()
-        (folder / name / "message.py").write_text("from swapcan.message import *\n", "utf-8")
+        for module in ("message", "protocol"):
+            text = f"from swapcan.{module} import *\n"
+            (folder / name / f"{module}.py").write_text(text, "utf-8")
         for file, text in emit_stubs(protocol, name).items():
             (generated / file).write_text(text, "utf-8")
     return folder

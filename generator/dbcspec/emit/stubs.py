@@ -16,6 +16,7 @@ from dbcspec.emit.stub_fields import (
     labels_name,
     members,
 )
+from dbcspec.emit.stub_protocol import References, tuple_of
 from dbcspec.emit.templating import template
 from dbcspec.layout import whole_byte
 from dbcspec.model import Message, Protocol
@@ -60,11 +61,14 @@ def emit_stubs(protocol: Protocol, runtime: str, package: str = "") -> dict[str,
         "called": called,
         "head": _head,
         "receivers": _receivers,
+        "refs": References(protocol, class_name),
+        "node_names": [quote(node.name) for node in protocol.nodes],
+        "tuple_of": tuple_of,
         **_enum_context(protocol, [field for _, fields in stubs for field in fields]),
     }
     return {
         name: template(f"{name}.j2").render(context)
-        for name in ("__init__.py", "enums.py", "messages.py", "decoders.py")
+        for name in ("__init__.py", "enums.py", "messages.py", "decoders.py", "protocol.py")
     }
 
 
