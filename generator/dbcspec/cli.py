@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
 
-from dbcspec.commands import compare, generate, lint, matrix, show
+from dbcspec.commands import compare, generate, lint, load, matrix, show
 from dbcspec.errors import FindingsError, ReadError, SpecError, StaleArtifactError
 
 _EXAMPLES = """examples:
@@ -19,6 +19,7 @@ _EXAMPLES = """examples:
   dbcspec compare spec dbc/vehicle.dbc   does the DBC say what the spec says
   dbcspec compare HEAD~3:spec spec --fail-on wire --format markdown
   dbcspec matrix export                  the Excel CAN matrix
+  dbcspec load --groups 18               bus load and worst-case response times
   dbcspec show B2V_ST2                   one message: bits, signals, codes, errata
 
 exit status: 0 all is well, 1 findings or stale files, 2 the command could not do its work"""
@@ -67,7 +68,7 @@ def command_line() -> argparse.ArgumentParser:
     )
     parser.set_defaults(run=lambda options: _no_command(parser, options.print_completion))
     commands = parser.add_subparsers(title="commands", metavar="")
-    for module in (generate, lint, show, compare, matrix):
+    for module in (generate, lint, show, compare, matrix, load):
         module.add(commands)
     return parser
 

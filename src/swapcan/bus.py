@@ -8,123 +8,25 @@ from __future__ import annotations
 import asyncio
 import math
 import time
-from collections import Counter, deque
+from collections import deque
 from collections.abc import AsyncGenerator, Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
-from typing import Literal
 
 import can
 
 from swapcan.codec import Codec
-from swapcan.errors import ChecksumError, LengthError, ReceiveTimeoutError, UnknownFrameError
+from swapcan.errors import ReceiveTimeoutError
 from swapcan.message import Message
-from swapcan.protect import CounterFault, ReceiveCounters, SendCounters
+from swapcan.protect import SendCounters
+from swapcan.receiver import Counts, Fault, FaultKind, Received, Receiver
 
-FaultKind = Literal["length", "checksum", "counter"]
+__all__ = ["Counts", "Fault", "FaultKind", "Link", "Received", "Receiver"]
 
 _WAIT = 1.0
 """Seconds in one call of the bus, after which a bus that was shut down is noticed."""
 
 _WAIT_IN_THREAD = 0.1
 """The same beside an event loop: as long a cancelled `Link.listen` takes to leave."""
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """Something wrong with a frame that has the identifier of a known message.
-
-    ``message`` is the name of the message, ``text`` says what is wrong in a few words, and
-    ``counter`` how the counter is wrong where ``kind`` is "counter".
-    """
-
-    kind: FaultKind
-    message: str
-    text: str
-    frame: can.Message
-    counter: CounterFault | None = None
-
-    def __str__(self) -> str:
-        return f"{self.message}: {self.text}"
-
-
-@dataclass(frozen=True, slots=True)
-class Received:
-    """A message, the frame that it came in, and what was wrong with its counter, if anything."""
-
-    message: Message
-    frame: can.Message
-    faults: tuple[Fault, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Counts:
-    """How many frames came in so far, by what became of them.
-
-    Parameters
-    ----------
-    received
-        Messages, those with a wrong counter among them.
-    foreign
-        Frames that are none of the protocol's.
-    length, checksum
-        Frames of known messages that were refused.
-    counter
-        Messages with a wrong counter.
-    """
-
-    received: int = 0
-    foreign: int = 0
-    length: int = 0
-    checksum: int = 0
-    counter: int = 0
-
-    @property
-    def faults(self) -> int:
-        """All faults together."""
-        return self.length + self.checksum + self.counter
-
-
-class Receiver:
-    """Decodes the frames of one bus in their order, checks and counts them; needs no bus itself."""
-
-    def __init__(self, codec: Codec | None = None) -> None:
-        self._codec = codec or Codec()
-        self._counters = ReceiveCounters()
-        self._counts: Counter[str] = Counter()
-
-    @property
-    def counts(self) -> Counts:
-        """A snapshot of the counts."""
-        return Counts(**self._counts)
-
-    def take(self, frame: can.Message) -> Received | Fault | None:
-        """The message in a frame, or why a frame of a known message is refused.
-
-        None for a foreign frame: an unknown or 11-bit identifier, a remote or an error frame.
-        """
-        try:
-            message = self._codec.decode_frame(frame)
-        except UnknownFrameError:
-            self._counts["foreign"] += 1
-            return None
-        except LengthError as error:
-            text = f"{len(error.data)} bytes instead of {error.expected}"
-            return self._fault("length", error.message, text, frame)
-        except ChecksumError as error:
-            text = f"checksum is 0x{error.received:02X}, the bytes make 0x{error.expected:02X}"
-            return self._fault("checksum", error.message, text, frame)
-        self._counts["received"] += 1
-        problem = self._counters.problem(message)
-        if problem is None:
-            return Received(message, frame)
-        self._counts["counter"] += 1
-        fault = Fault("counter", message.NAME, problem.text, frame, problem.kind)
-        return Received(message, frame, (fault,))
-
-    def _fault(self, kind: FaultKind, message: str, text: str, frame: can.Message) -> Fault:
-        self._counts[kind] += 1
-        return Fault(kind, message, text, frame)
 
 
 class Link:

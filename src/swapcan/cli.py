@@ -1,4 +1,4 @@
-"""The `swapcan` command line: demo, decode, send, listen."""
+"""The `swapcan` command line: its commands, and how errors become exit statuses."""
 
 from __future__ import annotations
 
@@ -11,19 +11,33 @@ from importlib.metadata import PackageNotFoundError, version
 
 import can
 
-from swapcan.commands import decode, demo, listen, send
-from swapcan.console import CommandError, Parser, finish, note, one_line, say
-from swapcan.errors import SwapcanError
+from swapcan.commands import convert, decode, demo, listen, monitor, plot, send, simulate
+from swapcan.console import CommandError, Parser, finish, note, say
+from swapcan.errors import SwapcanError, one_line
 
-_COMMANDS = (demo.COMMAND, decode.COMMAND, send.COMMAND, listen.COMMAND)
+_COMMANDS = (
+    demo.COMMAND,
+    decode.COMMAND,
+    convert.COMMAND,
+    plot.COMMAND,
+    send.COMMAND,
+    listen.COMMAND,
+    monitor.COMMAND,
+    simulate.COMMAND,
+)
 
 _EXAMPLES = """examples:
   swapcan demo                                        a pack and a truck on a virtual bus
   swapcan decode drive.blf                            the messages in a log
+  swapcan convert drive.blf -o drive.parquet          hours of a log as columns
+  swapcan plot drive.blf --signals SOC -o soc.html    signals and cells over time
   swapcan listen -i socketcan -c can0                 the messages on a bus
+  swapcan monitor -i socketcan -c can0                the same, as a view
   swapcan send B2V_ST2 soc=80 -i socketcan -c can0    one message onto a bus
+  swapcan simulate BMU CHG -i socketcan -c can0       a pack and a charger that behave
 
-exit status: 0 all is well, 1 the demo missed something, 2 the command could not do its work"""
+exit status: 0 all is well, 1 the demo missed something, 2 the command could not do its work,
+3 a log is damaged: what could be read was used"""
 
 
 def run(arguments: Sequence[str]) -> int:

@@ -9,11 +9,12 @@ from types import MappingProxyType
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.database import Database, Entry, database
-from swapcan.errors import ChecksumError, LengthError, UnknownFrameError
+from swapcan.database import Database, database
+from swapcan.errors import UnknownFrameError
 from swapcan.message import Message
-from swapcan.protect import STANDARD_ALGORITHMS, Algorithm, expected_checksum, sealed
+from swapcan.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from swapcan.protocol import Protocol
+from swapcan.reader import Reader
 
 
 class Codec:
@@ -38,6 +39,12 @@ class Codec:
     @cached_property
     def _database(self) -> Database:
         return database(self._protocol)
+
+    @cached_property
+    def readers(self) -> Mapping[int, Reader]:
+        """What checks and decodes the payloads of each message, by its 29-bit identifier."""
+        entries = self._database.by_frame_id
+        return {number: Reader(entry, self._algorithms) for number, entry in entries.items()}
 
     def encode(self, message: Message, *, counter: int | None = None, renew: bool = False) -> bytes:
         """The payload of a message.
@@ -65,10 +72,11 @@ class Codec:
         Raises `UnknownFrameError` for an identifier that the protocol has not, `LengthError` for
         a payload of another length, and `ChecksumError`, unless ``verify`` is False.
         """
-        entry = self._database.by_frame_id.get(frame_id)
-        if entry is None:
+        reader = self.readers.get(frame_id)
+        if reader is None:
             raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
-        return self._decode(entry, data, verify=verify)
+        reader.check(data, verify=verify)
+        return reader.decode(data)
 
     def decode_frame(self, frame: can.Message, *, verify: bool = True) -> Message:
         """The message in a frame of python-can; raises as `decode`.
@@ -79,19 +87,6 @@ class Codec:
         if reason := _not_a_data_frame(frame):
             raise UnknownFrameError(frame.arbitration_id, reason)
         return self.decode(frame.arbitration_id, bytes(frame.data), verify=verify)
-
-    def _decode(self, entry: Entry, data: bytes, *, verify: bool) -> Message:
-        kind = entry.type
-        if len(data) != kind.LENGTH:
-            raise LengthError(kind.FRAME_ID, data, kind.NAME, kind.LENGTH)
-        if verify and kind.CHECKSUM:
-            expected = expected_checksum(kind, data, self._algorithms)
-            received = data[kind.CHECKSUM.byte]
-            if expected is not None and received != expected:
-                raise ChecksumError(
-                    kind.FRAME_ID, data, kind.NAME, received=received, expected=expected
-                )
-        return entry.decode(entry.packer.unpack(data))
 
 
 def _not_a_data_frame(frame: can.Message) -> str | None:

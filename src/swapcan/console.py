@@ -76,18 +76,6 @@ def note(text: str) -> None:
         print(f"swapcan: {text}", file=sys.stderr, flush=True)
 
 
-def one_line(error: BaseException) -> str:
-    """The text of an error and of its cause, in one line."""
-    texts = [_text(error)]
-    if error.__cause__ and _text(error.__cause__) not in texts[0]:
-        texts.append(_text(error.__cause__))
-    return ": ".join(texts)
-
-
-def _text(error: BaseException) -> str:
-    return " ".join(str(error).split()) or type(error).__name__
-
-
 def aligned(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
     """The lines of a table."""
     table = [headings, ["-" * len(heading) for heading in headings], *rows]
@@ -107,3 +95,10 @@ def seconds(text: str) -> float:
     if not 0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"expected a positive number of seconds, not {text!r}")
     return value
+
+
+def count(text: str) -> int:
+    """A positive whole number, as the type of an argument."""
+    if not (text.isdecimal() and int(text)):
+        raise argparse.ArgumentTypeError(f"expected a positive whole number, not {text!r}")
+    return int(text)

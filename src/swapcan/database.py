@@ -22,11 +22,15 @@ Decoder = Callable[[Sequence[int]], Message]
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A message class with what packs its bits and what makes it from raw values."""
+    """A message class with what packs its bits and what makes it from raw values.
+
+    ``counter`` unpacks the alive counter alone, where there is one.
+    """
 
     type: type[Message]
     packer: Packer
     decode: Decoder
+    counter: Packer | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,4 +88,5 @@ def _entry(message: type[Message], dbc: CantoolsDatabase, protocol: Protocol) ->
         raise DatabaseError(
             f"{message.NAME} has other signals, or in another order, in {_dbc_name(protocol)}"
         )
-    return Entry(message, Packer(in_dbc), protocol.decoders[message])
+    counter = Packer(in_dbc, only=[message.COUNTER.dbc_name]) if message.COUNTER else None
+    return Entry(message, Packer(in_dbc), protocol.decoders[message], counter)

@@ -80,6 +80,10 @@ class DatabaseError(SwapcanError):
     """The DBC and the generated code of this package do not belong together."""
 
 
+class SendingError(SwapcanError, ValueError):
+    """A message that a node may not send, or cannot send in the way it was asked to."""
+
+
 class RequestError(SwapcanError):
     """A request cannot be made: this node has no signal for it, or it is already under way."""
 
@@ -101,3 +105,15 @@ class TransferError(SwapcanError, ValueError):
         self.transfer = transfer
         self.problem = problem
         super().__init__(f"{transfer}: {problem}")
+
+
+def one_line(error: BaseException) -> str:
+    """The text of an error and of its cause, in one line."""
+    texts = [_text(error)]
+    if error.__cause__ and _text(error.__cause__) not in texts[0]:
+        texts.append(_text(error.__cause__))
+    return ": ".join(texts)
+
+
+def _text(error: BaseException) -> str:
+    return " ".join(str(error).split()) or type(error).__name__

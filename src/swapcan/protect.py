@@ -78,20 +78,19 @@ class ReceiveCounters:
     def __init__(self) -> None:
         self._last: dict[type[Message], int] = {}
 
-    def problem(self, message: Message) -> CounterProblem | None:
+    def problem(self, kind: type[Message], value: int) -> CounterProblem | None:
         """What is wrong with the counter of a message just received, or None.
 
         The first message of a kind sets the counter; so does one with a wrong counter, so that a
         single lost frame is reported once.
         """
-        kind = type(message)
         if kind.COUNTER is None:
             return None
-        value = getattr(message, kind.COUNTER.field)
         modulus = kind.COUNTER.modulus
-        if not isinstance(value, int) or value >= modulus:
+        if value >= modulus:
             self._last.pop(kind, None)
-            return CounterProblem("invalid", f"counter is {value}, it runs 0 to {modulus - 1}")
+            said = kind.FIELDS[kind.COUNTER.field].states.get(value, value)
+            return CounterProblem("invalid", f"counter is {said}, it runs 0 to {modulus - 1}")
         last = self._last.get(kind)
         self._last[kind] = value
         if last is None or value == (last + 1) % modulus:

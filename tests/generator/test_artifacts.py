@@ -55,7 +55,14 @@ def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path:
     folder = "src/thermo/_generated"
     assert {name for name in files if name.startswith(folder)} == {
         f"{folder}/{name}"
-        for name in ("__init__.py", "enums.py", "messages.py", "decoders.py", "protocol.py", "thermo.dbc")
+        for name in (
+            "__init__.py",
+            "enums.py",
+            "messages.py",
+            "decoders.py",
+            "protocol.py",
+            "thermo.dbc",
+        )
     }
     assert files[f"{folder}/thermo.dbc"] == files["out/thermo.dbc"]
 

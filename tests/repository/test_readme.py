@@ -62,19 +62,42 @@ def test_the_commands_of_a_block_run_one_after_the_other(block: str, project: Pa
         assert done.returncode == 0, f"{command}: {done.stderr}{done.stdout}"
 
 
-def test_the_python_of_the_readme_prints_what_was_sent(tmp_path: Path) -> None:
-    (snippet,) = blocks("python")
-    script = tmp_path / "readme.py"
+def printed_by(snippet: str, folder: Path) -> list[str]:
+    """The lines that a snippet of the README prints."""
+    script = folder / "readme.py"
     script.write_text(snippet, encoding="utf-8")
     done = subprocess.run(
         [sys.executable, str(script)], capture_output=True, text=True, timeout=60, check=False
     )
     assert done.returncode == 0, done.stderr
-    first, second = done.stdout.splitlines()
+    return done.stdout.splitlines()
+
+
+def test_each_python_snippet_of_the_readme_is_looked_at_here() -> None:
+    assert len(blocks("python")) == 3
+
+
+def test_the_snippet_for_links_prints_what_was_sent(tmp_path: Path) -> None:
+    first, second = printed_by(blocks("python")[0], tmp_path)
     assert first.split()[:2] == ["80.0", "-120.5"]
     assert "Signal Invalid" in first
     assert "HV_ON" in second
     assert "vehicle_speed=42.0" in second
+
+
+def test_the_snippet_for_nodes_gets_the_pack_code_of_the_simulated_pack(tmp_path: Path) -> None:
+    lines = printed_by(blocks("python")[1], tmp_path)
+    assert "B2V_ST2: never seen -> alive" in lines
+    *_, code, soc, message = (line for line in lines if "->" not in line)
+    assert len(code) == 24
+    assert 0 <= float(soc) <= 100
+    assert "'name': '" in message
+
+
+def test_the_snippet_for_simulations_ends_with_the_high_voltage_off(tmp_path: Path) -> None:
+    (line,) = printed_by(blocks("python")[2], tmp_path)
+    assert "PRECHARGE" in line
+    assert "HV_CLOSED" in line
 
 
 def test_ci_runs_the_two_commands_as_the_readme_prints_them() -> None:

@@ -6,7 +6,8 @@ import argparse
 
 import can
 
-from swapcan.console import CommandError, one_line
+from swapcan.console import CommandError
+from swapcan.errors import one_line
 
 _FAILURES = (
     can.CanError,

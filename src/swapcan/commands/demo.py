@@ -4,85 +4,80 @@ from __future__ import annotations
 
 import argparse
 import secrets
-import time
-from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 
 import can
 
-from swapcan.bus import Link
-from swapcan.commands.nodes import Node, arrived
-from swapcan.commands.pack import Pack
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.bus import Link, Received
 from swapcan.commands.traffic import Traffic
-from swapcan.commands.truck import Charger, CoolingUnit, SwapController, Truck
 from swapcan.console import Command, note, say, seconds
 from swapcan.database import database
+from swapcan.errors import ReceiveTimeoutError
 from swapcan.messages import B2V_ST1, MESSAGES
-
-_LONGEST_SLEEP = 0.01
-"""Seconds until what arrived is reacted to."""
-
-
-class _World:
-    """All nodes on their buses, and somebody who listens on each bus."""
-
-    def __init__(self, open_buses: ExitStack, duration: float) -> None:
-        self._open_buses = open_buses
-        run = secrets.token_hex(4)
-        vehicle, charger = f"swapcan-vehicle-{run}", f"swapcan-charger-{run}"
-        self.listeners = [self._link(vehicle), self._link(charger)]
-        self.truck = Truck(self._link(vehicle), hv_on_at=0.2 * duration, content_at=0.7 * duration)
-        self.pack = Pack(self._link(vehicle), self._link(charger), precharge=0.3 * duration)
-        self.nodes: Sequence[Node] = (
-            self.truck,
-            self.pack,
-            SwapController(self._link(vehicle)),
-            CoolingUnit(self._link(vehicle)),
-            Charger(self._link(charger)),
-        )
-
-    def _link(self, channel: str) -> Link:
-        bus = can.Bus(channel, "virtual", ignore_config=True)
-        return Link(self._open_buses.enter_context(bus))
-
-    def links(self) -> Iterator[Link]:
-        """All links."""
-        yield from self.listeners
-        for node in self.nodes:
-            yield from node.links
-
-    def run(self, duration: float, traffic: Traffic) -> None:
-        """Let the nodes talk for so many seconds."""
-        database()  # read before the clock starts
-        start = time.monotonic()
-        while (now := time.monotonic() - start) < duration:
-            for node in self.nodes:
-                node.turn(now)
-            for listener in self.listeners:
-                for received in arrived(listener):
-                    traffic.add(received)
-            pause = min(node.next_due for node in self.nodes) - (time.monotonic() - start)
-            time.sleep(min(max(pause, 0.0), _LONGEST_SLEEP))
+from swapcan.simulate import PlannedStep, Simulation
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--seconds", type=seconds, default=3.0, help="how long (default: 3)")
+    parser.add_argument("--seconds", type=seconds, default=4.0, help="how long (default: 4)")
 
 
 def _run(options: argparse.Namespace) -> int:
     traffic = Traffic()
     note(f"pack and truck talk for {options.seconds:g} s, Ctrl-C ends")
-    with ExitStack() as open_buses:
-        world = _World(open_buses, options.seconds)
-        world.run(options.seconds, traffic)
-        faults = sum(link.counts.faults for link in world.links())
+    database()  # read before the clock starts
+    with ExitStack() as stack:
+        run = secrets.token_hex(4)
+        vehicle, charger = f"swapcan-vehicle-{run}", f"swapcan-charger-{run}"
+        listeners = [Link(stack.enter_context(_bus(name))) for name in (vehicle, charger)]
+        simulation = stack.enter_context(
+            Simulation(
+                PROTOCOL.nodes,
+                lambda: _bus(vehicle),
+                lambda: _bus(charger),
+                plan=_plan(options.seconds),
+            )
+        )
+        simulation.world.after_each_step(lambda: _hear(listeners, traffic))
+        simulation.world.run(options.seconds)
+        faults = sum(link.counts.faults for link in listeners)
+        nodes = [node for each in simulation.participants.values() for node in each.nodes]
+        faults += sum(node.counts.faults for node in nodes)
+    return _tell(simulation, traffic, faults)
+
+
+def _plan(duration: float) -> tuple[PlannedStep, ...]:
+    """High voltage on and data asked for; the charger is connected from the beginning."""
+    return PlannedStep("hv_on", 0.0), PlannedStep("ask", 0.1 * duration)
+
+
+def _bus(channel: str) -> can.BusABC:
+    return can.Bus(channel, "virtual", ignore_config=True)
+
+
+def _hear(listeners: list[Link], traffic: Traffic) -> None:
+    for listener in listeners:
+        while received := _arrived(listener):
+            traffic.add(received)
+
+
+def _arrived(link: Link) -> Received | None:
+    try:
+        return link.receive(timeout=0)
+    except ReceiveTimeoutError:
+        return None
+
+
+def _tell(simulation: Simulation, traffic: Traffic, faults: int) -> int:
+    bmu, vcu = simulation.bmu, simulation.vcu
     for line in (*traffic.message_table(), "", *traffic.signal_table()):
         say(line)
-    states = map(B2V_ST1.FIELDS["bms"].text, world.truck.states)
+    states = map(B2V_ST1.FIELDS["bms"].text, vcu.states if vcu else ())
+    code = vcu.pack_code if vcu else None
     missing = [kind.NAME for kind in MESSAGES if kind not in traffic.kinds]
     say("")
-    say(f"VIN at the pack         {world.pack.vin}")
-    say(f"pack code at the truck  {world.truck.pack_code}")
+    say(f"VIN at the pack         {bmu.vin if bmu else ''}")
+    say(f"pack code at the truck  {code.result(0) if code and code.done() else 'not yet'}")
     say(f"high voltage            {', '.join(states)}")
     say(f"messages                {len(traffic.kinds)} of {len(MESSAGES)}")
     say(f"frames                  {traffic.frames}")

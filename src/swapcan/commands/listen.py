@@ -10,7 +10,7 @@ import can
 
 from swapcan.commands.bus_options import add_bus_options, open_bus
 from swapcan.commands.transcript import JSON_HELP, Transcript
-from swapcan.console import Command, note, seconds
+from swapcan.console import Command, count, note, seconds
 
 _WAIT = 0.5
 """Seconds in one call of the bus: some systems let Ctrl-C through only between two calls."""
@@ -19,14 +19,8 @@ _WAIT = 0.5
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
-    parser.add_argument("--count", type=_count, default=math.inf, help="end after so many messages")
+    parser.add_argument("--count", type=count, default=math.inf, help="end after so many messages")
     add_bus_options(parser)
-
-
-def _count(text: str) -> int:
-    if not (text.isdecimal() and int(text)):
-        raise argparse.ArgumentTypeError(f"expected a positive whole number, not {text!r}")
-    return int(text)
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -13,7 +13,8 @@ import can
 from can.io.blf import BLFParseError
 from can.io.generic import MessageReader
 
-from swapcan.console import CommandError, one_line
+from swapcan.console import CommandError
+from swapcan.errors import one_line
 
 _DAMAGE = (
     BLFParseError,

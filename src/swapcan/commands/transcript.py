@@ -108,7 +108,12 @@ def values_text(message: Message) -> list[str]:
 
 
 def json_line(taken: Received | Fault) -> str:
-    """A message or a fault as a JSON object, in the shape that this module describes."""
+    """A message or a fault as JSON, in the shape that this module describes."""
+    return json.dumps(json_object(taken), allow_nan=False)
+
+
+def json_object(taken: Received | Fault) -> dict[str, Any]:
+    """The same as plain data."""
     frame = taken.frame
     channel = frame.channel
     line: dict[str, Any] = {
@@ -123,7 +128,7 @@ def json_line(taken: Received | Fault) -> str:
         message = taken.message
         line |= {"message": message.NAME, "signals": _signals(message), "states": _states(message)}
         line |= {"faults": [_fault(fault) for fault in taken.faults]}
-    return json.dumps(line, allow_nan=False)
+    return line
 
 
 def _fault(fault: Fault) -> dict[str, str]:

@@ -1,0 +1,75 @@
+"""What `swapcan convert` does; apart from its arguments, since it imports what is an extra."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from swapcan.console import CommandError, note, say
+from swapcan.logs.cells.arrow import CellTables
+from swapcan.logs.convert import convert_logs
+from swapcan.logs.pipeline import Layout, Options
+from swapcan.logs.plan import Mode
+from swapcan.logs.progress import Progress
+from swapcan.logs.raster import raster_step
+from swapcan.logs.window import moment
+
+DAMAGED = 3
+"""Exit status: a log is damaged; what comes before the damage was converted."""
+
+
+def run(given: argparse.Namespace) -> int:
+    """Convert, print the summary, and return the exit status."""
+    chosen = _options(given)
+    progress = Progress(_size(given.logs))
+    try:
+        target, summary = convert_logs(
+            given.logs,
+            given.output,
+            chosen,
+            jobs=given.jobs,
+            force=given.force,
+            watch=progress.update,
+        )
+    finally:
+        progress.clear()
+    if given.json:
+        say(json.dumps({"output": str(target.path), **summary.as_json()}, ensure_ascii=False))
+    for line in summary.lines():
+        note(line)
+    tables = f", tables: {len(summary.rows)}" if target.folder else ""
+    note(f"wrote {target.path}{tables}")
+    return DAMAGED if summary.damage else 0
+
+
+def _size(logs: Sequence[Path]) -> int:
+    total = 0
+    for log in logs:
+        try:
+            total += log.stat().st_size
+        except OSError as error:
+            raise CommandError(f"{log}: {error.strerror}") from None
+    return total
+
+
+def _options(given: argparse.Namespace) -> Options:
+    options = Options(
+        dbc=given.dbc,
+        messages=tuple(given.messages),
+        signals=tuple(given.signals),
+        start=None if given.start is None else moment(given.start),
+        end=None if given.end is None else moment(given.end),
+        mode=Mode.RAW if given.raw else Mode.LABELS if given.labels else Mode.PHYSICAL,
+        layout=Layout.LONG if given.long else Layout.MESSAGES,
+        keep_faulty=given.keep_faulty,
+    )
+    if given.raster is not None:
+        return replace(options, layout=Layout.RASTER, step=raster_step(given.raster))
+    selected = given.dbc or given.messages or given.signals
+    if not selected and options.mode is Mode.PHYSICAL and options.layout is Layout.MESSAGES:
+        # All there is of the own protocol: cells and probes as columns of their own too.
+        return replace(options, derived=(CellTables,))
+    return options

@@ -1,0 +1,105 @@
+"""`swapcan convert`: log files to tables."""
+
+from __future__ import annotations
+
+import argparse
+from importlib.util import find_spec
+from pathlib import Path
+
+from swapcan.console import Command, CommandError, count
+
+_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
+
+
+def _add_arguments(parser: argparse.ArgumentParser) -> None:
+    logs = parser.add_argument(
+        "logs",
+        type=Path,
+        nargs="+",
+        metavar="LOG",
+        help="logs of one drive, in their order: .asc, .blf, .csv, .log, .trc, .mf4 and others",
+    )
+    output = parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        metavar="OUT",
+        help=(
+            "the suffix says which kind: .parquet, .arrow, .feather, .csv or .mf4. One table is "
+            "that file; tables of several messages go into a folder, OUT without its suffix, as "
+            "one file each. .mf4 holds all tables. Without a suffix: a folder of Parquet files. "
+            "Where everything is converted, the cells and probes of a pack come as columns too"
+        ),
+    )
+    for each in (logs, output):
+        vars(each)["complete"] = _FILE
+    dbc = parser.add_argument("--dbc", type=Path, metavar="FILE", help="decode by this DBC file")
+    vars(dbc)["complete"] = _FILE
+    _add_choice(parser)
+    parser.add_argument(
+        "--keep-faulty", action="store_true", help="keep frames with a wrong length or checksum"
+    )
+    parser.add_argument(
+        "--jobs", type=count, metavar="N", help="logs read at a time (default: one per core)"
+    )
+    parser.add_argument("--force", action="store_true", help="replace OUT where it exists")
+    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+
+
+def _add_choice(parser: argparse.ArgumentParser) -> None:
+    for name, text in (
+        ("--messages", "these messages only"),
+        ("--signals", "these signals only; SOC means every signal that ends in _SOC"),
+    ):
+        parser.add_argument(
+            name, help=text, type=_names, action="extend", default=[], metavar="NAME,..."
+        )
+    parser.add_argument(
+        "--from",
+        dest="start",
+        metavar="TIME",
+        help="seconds since the log's begin, or a date like 2025-06-30T14:05:00 (local time)",
+    )
+    parser.add_argument("--to", dest="end", metavar="TIME", help="the same")
+    values = parser.add_mutually_exclusive_group()
+    values.add_argument("--raw", action="store_true", help="raw values, not scaled")
+    values.add_argument("--labels", action="store_true", help="labels in place of their codes")
+    layout = parser.add_mutually_exclusive_group()
+    layout.add_argument("--long", action="store_true", help="one table with a row per signal")
+    layout.add_argument(
+        "--raster",
+        metavar="STEP",
+        help=(
+            "one table with a row every so often (100ms, 1s, 1min) and a column per signal: the "
+            "last value, nothing once it is older than 5 periods of its message"
+        ),
+    )
+
+
+def _names(text: str) -> list[str]:
+    return [name for name in text.split(",") if name]
+
+
+def _run(options: argparse.Namespace) -> int:
+    for name in ("numpy", "pyarrow"):
+        if find_spec(name) is None:
+            raise CommandError(f"this needs {name}: pip install 'swapcan[logs]'")
+    from swapcan.commands.conversion import run
+
+    return run(options)
+
+
+COMMAND = Command(
+    name="convert",
+    help="write log files as tables: Parquet, Arrow, CSV or MF4",
+    examples="""  swapcan convert drive.blf -o drive.parquet    # drive/B2V_ST2.parquet and others
+  swapcan convert drive.blf -o st2.csv --messages B2V_ST2
+  swapcan convert day-*.asc -o day.parquet --raster 100ms --signals SOC,Current
+  swapcan convert drive.blf -o drive.mf4 --from 60 --to 120
+
+exit status: 0 all is well, 2 the command could not do its work, 3 a log is damaged: what comes
+before the damage is written, 130 interrupted: nothing is written""",
+    add_arguments=_add_arguments,
+    run=_run,
+)

@@ -1,0 +1,174 @@
+"""What `swapcan monitor` prints where there is no terminal: lines of text, or JSON.
+
+Text has a line for each thing that happens, with the seconds since the start: a message is late,
+lost or alive again, an alarm begins or ends, a frame has a fault (once per interval for each kind
+of each message), a VIN or a pack code is complete, the bus is lost or back. That a signal is
+invalid is not told; JSON has it. At each interval there is a line that sums up.
+
+JSON has one object per interval, one a line, and one at the end if frames came since:
+
+    {"time": 2.0, "bus_lost": null, "recording": {"file": "drive.blf", "frames": 1680},
+     "totals": {"seconds": 2.0, "frames": 1680, "messages": 1671, "length": 0, "checksum": 1,
+                "counter": 2, "foreign": 6, "errors": 0, "frames_per_second": 840.2,
+                "load": 0.47, "faults": 3},
+     "messages": [{"name": "B2V_ST2", "frame_id": 411226355, "sender": "BMU",
+                   "receivers": ["VCU"], "state": "alive", "frames": 20, "age": 0.05,
+                   "period": 0.1, "mean": 0.1001, "jitter": 0.0004, "worst": 0.1012,
+                   "faults": {"length": 0, "checksum": 0, "counter repeated": 0, ...},
+                   "wrong": 2, "last": {...}}, ...],
+     "pack": {"vin": "", "pack_code": "",
+              "items": {"soc": {"text": "80 %", "value": 80.0, "unit": "%", "mark": ""}, ...},
+              "alarms": [{"message": "B2V_ST1", "signal": "B2V_ST1_Flt_OverTemp",
+                          "title": "Cell temperature too high", "text": "Level 1 ...",
+                          "age": 1.5}]},
+     "cells": {"received": 96, "total": 96, "age": 0.01, "volts": {"1": [3.312, null, ...]}},
+     "foreign": [{"frame_id": 419360512, "is_extended": true, "frames": 6, "age": 0.3}]}
+
+Times are in seconds, ``time`` since the start, ``totals.seconds`` and all counts since counting
+began. ``state`` is "alive", "late", "lost", "never seen", "ended" (what is sent only while asked
+for) or "seen" (what is sent on events). ``mean``, ``jitter`` and ``worst`` are those of the
+measured period, null before there is one. ``wrong`` counts signals that say something is wrong.
+``last`` is the last frame as `swapcan listen --json` prints it, null where there was none.
+``load`` is a share of 1, and an estimate. What nobody has told yet has an empty text and a null
+value; ``mark`` says why not to rely on a value: "invalid", "late", "lost" and the like. A cell is
+its voltage, "Signal Invalid" or "Abnormal", or null where nothing has come.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from typing import Any
+
+from swapcan.bus import Fault
+from swapcan.commands.transcript import json_object
+from swapcan.console import say
+from swapcan.monitor.picture import Picture
+from swapcan.monitor.rows import MessageRow, Seen
+from swapcan.monitor.session import Session, SessionEvent, Status
+from swapcan.supervise import NotSeen, SignalChanged, StateChanged
+from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Vin
+
+_ITEMS = ("soc", "voltage_inside", "current", "hv_state", "fault_level")
+
+
+class MonitorLines:
+    """Prints a session.
+
+    Parameters
+    ----------
+    session
+        What is printed.
+    as_json
+        Whether the lines are JSON.
+    name_filter
+        Which messages are told of; empty for all.
+    """
+
+    def __init__(self, session: Session, *, as_json: bool, name_filter: str) -> None:
+        self._session = session
+        self._as_json = as_json
+        self._filter = name_filter
+        self._names = {row.name for row in session.picture().messages if row.matches(name_filter)}
+        self._told: set[tuple[str, str]] = set()
+        self._last_frames = -1
+
+    def events(self) -> None:
+        """Print what happened since the last call, unless the lines are JSON."""
+        for at, event in self._session.events():
+            if not self._as_json and (text := self._event_text(event)):
+                say(f"{at - self._session.began:10.3f}  {text}", flush=True)
+
+    def summary(self) -> None:
+        """Print how things are now."""
+        picture, status = self._session.picture(), self._session.status()
+        rows = [row for row in picture.messages if row.matches(self._filter)]
+        self._told.clear()
+        self._last_frames = status.frames
+        time = picture.time - self._session.began
+        if self._as_json:
+            told = _as_json(picture, status, rows)
+            say(json.dumps(_rounded({"time": time, **told}), allow_nan=False), flush=True)
+        else:
+            say(f"{time:10.3f}  {_summary(picture, status, rows)}", flush=True)
+
+    def end(self) -> None:
+        """Print what is left: also how things are, if frames came since that was told."""
+        self.events()
+        if self._session.status().frames != self._last_frames:
+            self.summary()
+
+    def _event_text(self, event: SessionEvent) -> str:
+        if isinstance(event, Fault):
+            key = (event.message, str(event.counter or event.kind))
+            is_news = key not in self._told
+            self._told.add(key)
+            return str(event) if is_news and self._matches(event.message, str(event)) else ""
+        if isinstance(event, StateChanged | NotSeen | SignalChanged):
+            is_told = not isinstance(event, SignalChanged) or event.kind != "invalid"
+            return str(event) if is_told and self._matches(event.message.NAME, str(event)) else ""
+        if isinstance(event, CellVoltages | ProbeTemperatures):
+            return ""
+        if isinstance(event, Vin):
+            return f"VIN {event}"
+        return f"pack code {event}" if isinstance(event, PackCode) else str(event)
+
+    def _matches(self, message: str, text: str) -> bool:
+        return message in self._names or self._filter.lower() in text.lower()
+
+
+def _summary(picture: Picture, status: Status, rows: list[MessageRow]) -> str:
+    totals = picture.totals
+    states = Counter(row.state for row in rows)
+    parts = [
+        f"{totals.frames} frames",
+        f"{totals.frames_per_second:.0f}/s",
+        f"load about {100 * totals.load:.0f} %",
+        *(f"{states[state]} {state}" for state in ("alive", "late", "lost") if states[state]),
+    ]
+    counts = (
+        (totals.faults, "faults"),
+        (len(picture.foreign), "foreign identifiers"),
+        (totals.errors, "error frames"),
+        (len(picture.pack.alarms), "alarms"),
+    )
+    parts += [f"{count} {what}" for count, what in counts if count]
+    items = (picture.pack.item(key) for key in _ITEMS)
+    parts += [
+        f"{item.label} {item.text}{f' ({item.mark})' if item.mark else ''}"
+        for item in items
+        if item.text
+    ]
+    if status.bus_lost:
+        parts.append(f"bus lost: {status.bus_lost}")
+    return ", ".join(parts)
+
+
+def _as_json(picture: Picture, status: Status, rows: list[MessageRow]) -> dict[str, Any]:
+    names = {row.name for row in rows}
+    last = {kind.NAME: seen for kind, seen in picture.last.items()}
+    told = picture.as_dict()
+    told["messages"] = [
+        {**message, "last": _frame(last.get(message["name"]))}
+        for message in told["messages"]
+        if message["name"] in names
+    ]
+    recording = {"file": str(status.recording), "frames": status.recorded}
+    return {
+        "bus_lost": status.bus_lost or None,
+        "recording": recording if status.recording else None,
+        **told,
+    }
+
+
+def _frame(seen: Seen | None) -> dict[str, Any] | None:
+    return json_object(seen.received) if seen else None
+
+
+def _rounded(value: Any) -> Any:
+    """The same with microseconds and the like, not more digits than were measured."""
+    if isinstance(value, dict):
+        return {key: _rounded(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_rounded(each) for each in value]
+    return round(value, 6) if isinstance(value, float) else value

@@ -1,0 +1,97 @@
+"""The work of `swapcan plot`, which needs the extra ``logs``."""
+
+from __future__ import annotations
+
+import argparse
+import secrets
+from pathlib import Path
+
+from swapcan.console import CommandError, note
+from swapcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
+from swapcan.logs.plot.html import notes
+from swapcan.logs.progress import Progress
+from swapcan.logs.protocol import protocol_of
+from swapcan.logs.window import Moment, moment
+
+DAMAGED = 3
+"""Exit status where the log is damaged."""
+
+_MOST = 200
+"""More signals at a time nobody can look at."""
+
+_SUFFIXES = (".html", ".png")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Read the log, write the plot, say what there was to say; gives the exit status."""
+    output: Path = options.output
+    _check(output, force=options.force)
+    request = _request(options)
+    progress = Progress(_size(options.log))
+    try:
+        plot = read_plot(options.log, request, progress.update)
+    finally:
+        progress.clear()
+    status = DAMAGED if plot.damage is not None else 0
+    for text in notes(plot):
+        note(text)
+    if not (plot.curves or plot.bands or plot.heats):
+        note(f"{options.log}: there is nothing to draw")
+        return status or 2
+    _write(output, plot)
+    counts = (
+        (len(plot.curves) + len(plot.bands), "signals"),
+        (len(plot.heats), "heat maps"),
+    )
+    drawn = ", ".join(f"{what} {count}" for count, what in counts if count)
+    note(f"{output}: {drawn}, {plot.end - plot.start:,.1f} s")
+    return status
+
+
+def _request(options: argparse.Namespace) -> PlotRequest:
+    if not (options.signals or options.cells or options.probes):
+        raise CommandError("say what to draw: --signals NAME,..., --cells or --probes")
+    protocol = protocol_of(options.dbc)
+    signals = find_signals(protocol, options.signals)
+    if len(signals) > _MOST:
+        raise CommandError(f"that is {len(signals)} signals; a plot has at most {_MOST}")
+    return PlotRequest(
+        protocol,
+        signals,
+        cells=options.cells,
+        probes=options.probes,
+        start=_moment(options.start),
+        end=_moment(options.end),
+    )
+
+
+def _moment(text: str | None) -> Moment | None:
+    return None if text is None else moment(text)
+
+
+def _size(path: Path) -> int:
+    """Bytes of the log; what is wrong with it is said where it is opened."""
+    return path.stat().st_size if path.exists() else 0
+
+
+def _check(output: Path, *, force: bool) -> None:
+    if output.suffix.lower() not in _SUFFIXES:
+        raise CommandError(f"{output}: the name must end in {' or '.join(_SUFFIXES)}")
+    if output.is_dir():
+        raise CommandError(f"{output}: there is a folder of that name")
+    if output.exists() and not force:
+        raise CommandError(f"{output}: exists; --force replaces it")
+
+
+def _write(output: Path, plot: Plot) -> None:
+    """The file appears complete or not at all."""
+    is_page = output.suffix.lower() == ".html"
+    content = to_html(plot).encode() if is_page else to_picture(plot)
+    draft = output.with_name(f".{output.name}.{secrets.token_hex(4)}")
+    try:
+        draft.write_bytes(content)
+        draft.replace(output)
+    except OSError as error:
+        raise CommandError(f"{output}: {error.strerror or error}") from None
+    finally:
+        draft.unlink(missing_ok=True)

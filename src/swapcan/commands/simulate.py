@@ -1,0 +1,144 @@
+"""`swapcan simulate`: nodes of the protocol that are not there, on a real bus, in real time."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from contextlib import ExitStack
+from typing import TypeVar
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.commands.bus_options import add_bus_options, open_bus
+from swapcan.commands.simulation_report import SimulationReport
+from swapcan.console import Command, aligned, note, say, seconds
+from swapcan.simulate.faults import FAULTS, able_nodes, planned_fault
+from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
+from swapcan.simulate.shared_bus import SharedBus
+from swapcan.simulate.simulation import Simulation, check
+from swapcan.simulate.times import PlanError
+
+T = TypeVar("T")
+
+
+def _add_arguments(parser: argparse.ArgumentParser) -> None:
+    names = ", ".join(PROTOCOL.nodes)
+    parser.add_argument(
+        "nodes",
+        nargs="*",
+        type=str.upper,
+        metavar="NODE",
+        help=f"which to simulate, of {names} (default: all)",
+    )
+    parser.add_argument(
+        "--fault",
+        dest="faults",
+        action="append",
+        type=_typed(planned_fault),
+        default=[],
+        metavar="[WHO.]NAME@START[+DURATION]",
+        help="such as over_temperature@30s, VCU.bus_silence@1min+2s, B2V_ST1.lost_frame@500ms;"
+        " WHO is a node or a message",
+    )
+    parser.add_argument("--list-faults", action="store_true", help="show which faults there are")
+    parser.add_argument(
+        "--plan",
+        type=_typed(plan_of),
+        metavar="STEP@START[+DURATION],...",
+        help=f"what the nodes do, of {', '.join(STEPS)}; empty for nothing"
+        f" (default with the VCU: {', '.join(map(str, DEFAULT_PLAN))})",
+    )
+    parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
+    parser.add_argument("--seed", type=int, default=0, help="what chance is drawn from")
+    parser.add_argument("--json", action="store_true", help="print one JSON object a line")
+    add_bus_options(parser)
+    parser.add_argument(
+        "--charger-bus",
+        nargs="+",
+        action="extend",
+        type=_typed(_assignment),
+        default=[],
+        metavar="NAME=VALUE",
+        help="another bus for BMU and CHG to talk on: interface, channel and so on, where they are"
+        " not those of the bus above (default: the same bus)",
+    )
+
+
+def _typed(read: Callable[[str], T]) -> Callable[[str], T]:
+    """The same as the type of an argument."""
+
+    def typed(text: str) -> T:
+        try:
+            return read(text)
+        except PlanError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+
+    return typed
+
+
+def _run(options: argparse.Namespace) -> int:
+    if options.list_faults:
+        _list_faults()
+        return 0
+    names = tuple(options.nodes) or PROTOCOL.nodes
+    plan = _default_plan(names) if options.plan is None else options.plan
+    check(names, plan, options.faults)
+    with ExitStack() as stack:
+        vehicle = SharedBus(stack.enter_context(open_bus(options)))
+        charger = None
+        if options.charger_bus:
+            charger = SharedBus(stack.enter_context(open_bus(_charger_options(options))))
+        simulation = stack.enter_context(
+            Simulation(
+                names,
+                vehicle.share,
+                charger.share if charger else None,
+                plan=plan,
+                faults=options.faults,
+                seed=options.seed,
+            )
+        )
+        report = SimulationReport(simulation, as_json=options.json)
+        note(f"simulating {', '.join(names)} on {vehicle.bus.channel_info}, Ctrl-C ends")
+        try:
+            simulation.world.run(options.seconds)
+        finally:
+            note(report.summary(*filter(None, (vehicle, charger))))
+    return 0
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (equals and name.isidentifier()):
+        raise PlanError(f"expected NAME=VALUE, not {text!r}")
+    return name, value
+
+
+def _default_plan(names: tuple[str, ...]) -> tuple[PlannedStep, ...]:
+    """What is done where nothing else is said: without the VCU nothing."""
+    return tuple(step for step in DEFAULT_PLAN if step.node in names and "VCU" in names)
+
+
+def _charger_options(options: argparse.Namespace) -> argparse.Namespace:
+    named = {name: getattr(options, name) for name in ("interface", "channel", "bitrate")}
+    given = dict(options.charger_bus)
+    own = {name: given.pop(name, value) for name, value in named.items()}
+    return argparse.Namespace(**own, bus_kwargs=[*options.bus_kwargs, *given.items()])
+
+
+def _list_faults() -> None:
+    rows = [(name, ", ".join(able_nodes(name)), kind.text) for name, kind in FAULTS.items()]
+    for line in aligned(("fault", "nodes", "what happens"), rows):
+        say(line)
+
+
+COMMAND = Command(
+    name="simulate",
+    help="be nodes of the protocol on a bus: a truck, a pack, a charger that behave",
+    examples="""  swapcan simulate BMU CHG -i socketcan -c can0
+  swapcan simulate VCU -i udp_multicast -c 239.74.163.2 --plan "hv_on@1s, drive@3s, hv_off@60s"
+  swapcan simulate BMU -i pcan -c PCAN_USBBUS1 -b 250000 --fault over_temperature@30s+10s
+  swapcan simulate --list-faults""",
+    add_arguments=_add_arguments,
+    run=_run,
+)

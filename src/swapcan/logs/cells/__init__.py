@@ -1,0 +1,18 @@
+"""One column per cell or probe, one row per complete cycle, from `B2V_Ucell` and `B2V_Temp`.
+
+The rules are those of the live runtime. A cycle has each frame of each CSC; how many CSCs and
+cells there are, `B2V_BattInfo2` says. A row has for every cell what was received last for it, none
+older than one and a half periods, and all of it received since the row before. What stays
+incomplete that long is counted. Frames of different channels are never put together.
+
+`B2V_BattInfo2` is sent on request only, so that many logs have it late or not at all. The live
+runtime reports nothing until then. In logs, by default, a cycle has as long what was seen in the
+first two seconds: the frames that came at least half as often as the most frequent one, and of
+each CSC the cells up to the last that had a value. With ``assume_seen=False`` nothing is assumed.
+"""
+
+from swapcan.logs.cells.assembly import CycleCounts
+from swapcan.logs.cells.cycles import CellColumns, CycleTable
+from swapcan.logs.cells.readings import CELLS, PROBES, CellsError, Readings
+
+__all__ = ["CELLS", "PROBES", "CellColumns", "CellsError", "CycleCounts", "CycleTable", "Readings"]

@@ -1,0 +1,190 @@
+"""What is measured by CSC, and the frames that carry it, as columns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swapcan.errors import SwapcanError
+from swapcan.logs.columns import Column, MessageColumns, State
+from swapcan.message import Message
+from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
+
+
+class CellsError(SwapcanError, ValueError):
+    """What was decoded is not what cells and probes are made of."""
+
+
+KEY_BITS = 8
+"""Frame numbers have one byte; a key is the CSC above it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Readings:
+    """Readings of one kind, and the signals that carry them.
+
+    Parameters
+    ----------
+    name
+        Of the table.
+    item
+        What one reading is called, the begin of the names of columns.
+    message, period
+        The message, and seconds between its cycles.
+    csc, number
+        Signals: the CSC of a frame, and its number there from 1.
+    no_csc
+        Codes that are no CSC.
+    items
+        Signals: the readings of a frame in order.
+    unit
+        Of the readings.
+    totals, groups, count
+        The message that tells how many there are, and its signals: CSCs, and readings in all.
+    """
+
+    name: str
+    item: str
+    message: str
+    period: float
+    csc: str
+    number: str
+    no_csc: tuple[int, ...]
+    items: tuple[str, ...]
+    unit: str
+    totals: str
+    groups: str
+    count: str
+
+    def column(self, csc: int, number: int) -> str:
+        """Name of the column of a reading; both count from 1."""
+        return f"{self.item}_{csc}_{number}"
+
+
+def _readings(name: str, item: str, message: type[Message], unit: str, count: str) -> Readings:
+    number, csc, *items = message.FIELDS.values()
+    totals = B2V_BattInfo2.FIELDS
+    return Readings(
+        name=name,
+        item=item,
+        message=message.NAME,
+        period=message.PERIOD or 0.0,
+        number=number.dbc_name,
+        csc=csc.dbc_name,
+        no_csc=tuple(csc.states),
+        items=tuple(item.dbc_name for item in items),
+        unit=unit,
+        totals=B2V_BattInfo2.NAME,
+        groups=totals["tot_csc_num"].dbc_name,
+        count=totals[count].dbc_name,
+    )
+
+
+CELLS = _readings("cells", "cell", B2V_Ucell, "V", "tot_cell_num")
+"""Cell voltages."""
+
+PROBES = _readings("probes", "probe", B2V_Temp, "degC", "tot_temp_num")
+"""Probe temperatures."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingFrames:
+    """Frames of one message on one channel, in their order; n rows.
+
+    Parameters
+    ----------
+    time
+        Seconds.
+    key
+        CSC and frame number in one; the CSC is 0 where the frame has none.
+    highest
+        The last reading of the CSC that has a value in this frame, from 1; 0 for none.
+    values, state
+        The readings and their `State`, shape (n, readings in a frame).
+    """
+
+    time: NDArray[np.float64]
+    key: NDArray[np.int32]
+    highest: NDArray[np.int32]
+    values: NDArray[np.float64]
+    state: NDArray[np.uint8]
+
+    def __len__(self) -> int:
+        """How many frames."""
+        return len(self.time)
+
+    def rows(self, rows: NDArray[np.int64]) -> ReadingFrames:
+        """Some of the frames."""
+        return ReadingFrames(
+            self.time[rows], self.key[rows], self.highest[rows], self.values[rows], self.state[rows]
+        )
+
+    def followed_by(self, other: ReadingFrames) -> ReadingFrames:
+        """These frames and those."""
+        return ReadingFrames(
+            np.concatenate([self.time, other.time]),
+            np.concatenate([self.key, other.key]),
+            np.concatenate([self.highest, other.highest]),
+            np.concatenate([self.values, other.values]),
+            np.concatenate([self.state, other.state]),
+        )
+
+
+def no_frames(width: int) -> ReadingFrames:
+    """No frames, of so many readings each."""
+    return ReadingFrames(
+        np.empty(0),
+        np.empty(0, np.int32),
+        np.empty(0, np.int32),
+        np.empty((0, width)),
+        np.empty((0, width), np.uint8),
+    )
+
+
+def frames_of(
+    readings: Readings, columns: MessageColumns, own: NDArray[np.int64] | slice
+) -> ReadingFrames:
+    """The frames of a block, or some of them; all is copied.
+
+    Raises
+    ------
+    CellsError
+        A signal was not decoded, or to raw values.
+    """
+    for name in (readings.csc, readings.number, *readings.items):
+        if name not in columns.columns:
+            raise CellsError(
+                f"{readings.name} need all signals of {readings.message}: decode {name}"
+            )
+    items = [columns.columns[name] for name in readings.items]
+    if not all(item.signal.scaled for item in items):
+        raise CellsError(f"{readings.name} are made of physical values, not of raw ones")
+    values = np.stack([item.values[own] for item in items], axis=1, dtype=np.float64)
+    state = np.stack([_state(item)[own] for item in items], axis=1)
+    values[state != State.VALUE] = np.nan
+    number = columns.columns[readings.number].values[own].astype(np.int32)
+    csc_column = columns.columns[readings.csc]
+    csc = csc_column.values[own].astype(np.int32)
+    csc[np.isin(csc, readings.no_csc)] = 0
+    if csc_column.valid is not None:
+        csc[~csc_column.valid[own]] = 0
+    return ReadingFrames(
+        columns.timestamp[own], (csc << KEY_BITS) | number, _highest(state, number), values, state
+    )
+
+
+def _state(column: Column) -> NDArray[np.uint8]:
+    if column.state is None:
+        return np.zeros(len(column.values), np.uint8)
+    return column.state
+
+
+def _highest(state: NDArray[np.uint8], number: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Counted over the frames of the CSC; a reading that is abnormal is there."""
+    width = state.shape[1]
+    within = np.zeros(len(state), np.int32)
+    for position in range(width):
+        within[state[:, position] != State.INVALID] = position + 1
+    return np.where(within > 0, (number - 1) * width + within, 0).astype(np.int32)

@@ -1,0 +1,69 @@
+"""How busy a bus is: frames per second, and an estimate of the load from the lengths of frames."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import can
+
+BITRATE = 250_000
+"""Bit/s of the protocol's buses."""
+
+_BUCKET = 0.25
+_BUCKETS = 8
+"""The rates are those of the last two seconds, in steps of a quarter."""
+
+# Bits of a frame without data, with the space after it, and those among them that take stuff bits.
+_EXTENDED, _EXTENDED_STUFFED = 67, 54
+_STANDARD, _STANDARD_STUFFED = 47, 34
+_BITS_PER_STUFF_BIT = 16
+"""As in the traffic of the five nodes; it depends on the data, at worst it is 4."""
+
+
+def frame_bits(frame: can.Message) -> float:
+    """About how many bit times a classic frame takes on the bus, stuff bits included."""
+    data = 0 if frame.is_remote_frame else 8 * len(frame.data)
+    bits, stuffed = (
+        (_EXTENDED, _EXTENDED_STUFFED) if frame.is_extended_id else (_STANDARD, _STANDARD_STUFFED)
+    )
+    return bits + data + (stuffed + data) / _BITS_PER_STUFF_BIT
+
+
+class BusLoad:
+    """Counts frames and their bits; times are seconds that never go back.
+
+    Parameters
+    ----------
+    now
+        When counting begins.
+    bitrate
+        Of the bus, in bit/s.
+    """
+
+    def __init__(self, now: float, bitrate: float = BITRATE) -> None:
+        self._began = now
+        self._bitrate = bitrate
+        self._buckets: deque[list[float]] = deque()  # number of the bucket, frames, bits
+
+    def add(self, frame: can.Message, now: float) -> None:
+        """Count a frame that came at ``now``."""
+        number = now // _BUCKET
+        if not self._buckets or self._buckets[-1][0] != number:
+            self._buckets.append([number, 0, 0])
+            if len(self._buckets) > _BUCKETS:
+                self._buckets.popleft()
+        bucket = self._buckets[-1]
+        bucket[1] += 1
+        bucket[2] += frame_bits(frame)
+
+    def rates(self, now: float) -> tuple[float, float]:
+        """Frames per second, and the estimated share of the time that the bus is busy."""
+        first = now // _BUCKET - _BUCKETS + 1
+        span = now - max(first * _BUCKET, self._began)
+        if not span > 0:
+            return 0.0, 0.0
+        counted = [bucket for bucket in self._buckets if bucket[0] >= first]
+        frames = math.fsum(bucket[1] for bucket in counted)
+        bits = math.fsum(bucket[2] for bucket in counted)
+        return frames / span, bits / span / self._bitrate

@@ -1,0 +1,99 @@
+"""All that a monitor knows at one moment; it stays as it is while the bus goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from swapcan.message import Message
+from swapcan.monitor.cells import CellMap
+from swapcan.monitor.pack import Pack
+from swapcan.monitor.rows import MessageRow, Seen, SignalRow, signal_rows
+from swapcan.protocol import Protocol
+
+
+@dataclass(frozen=True, slots=True)
+class Totals:
+    """What came in since counting began.
+
+    Parameters
+    ----------
+    seconds
+        How long ago that was.
+    frames
+        All frames, whatever they were.
+    messages
+        Those that were messages of the protocol.
+    length, checksum, counter
+        Frames of known messages that were refused for their length or checksum, and messages with
+        a wrong counter.
+    foreign, errors
+        Frames of other protocols, and error frames.
+    frames_per_second, load
+        Over the last two seconds; the load is an estimate, a share of 1.
+    """
+
+    seconds: float
+    frames: int
+    messages: int
+    length: int
+    checksum: int
+    counter: int
+    foreign: int
+    errors: int
+    frames_per_second: float
+    load: float
+
+    @property
+    def faults(self) -> int:
+        """All faults together."""
+        return self.length + self.checksum + self.counter
+
+
+@dataclass(frozen=True, slots=True)
+class ForeignRow:
+    """An identifier that is none of the protocol's, and how many frames had it."""
+
+    frame_id: int
+    is_extended: bool
+    frames: int
+    age: float
+
+    def __str__(self) -> str:
+        return f"0x{self.frame_id:08X}" if self.is_extended else f"0x{self.frame_id:03X}"
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """What a `Watch` knows at ``time``, in seconds of its clock.
+
+    ``messages`` has all of the protocol, in its order. ``vin`` and ``pack_code`` are the last that
+    were complete, empty where none was.
+    """
+
+    time: float
+    protocol: Protocol
+    totals: Totals
+    messages: tuple[MessageRow, ...]
+    pack: Pack
+    cells: CellMap
+    vin: str
+    pack_code: str
+    foreign: tuple[ForeignRow, ...]
+    last: Mapping[type[Message], Seen]
+
+    def signals(self, name: str) -> tuple[SignalRow, ...]:
+        """The signals of a message; raises `UnknownMessageError`."""
+        kind = self.protocol.message(name)
+        return signal_rows(self.protocol, kind, self.last.get(kind), self.time)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The same as JSON has it, without the signals."""
+        return {
+            "totals": {**asdict(self.totals), "faults": self.totals.faults},
+            "messages": [row.as_dict() for row in self.messages],
+            "pack": {"vin": self.vin, "pack_code": self.pack_code, **self.pack.as_dict()},
+            "cells": self.cells.as_dict(),
+            "foreign": [asdict(row) for row in self.foreign],
+        }

@@ -1,0 +1,125 @@
+"""Recording frames to a log file, in any format that python-can writes."""
+
+from __future__ import annotations
+
+import sqlite3
+import struct
+import threading
+from contextlib import suppress
+from copy import copy
+from pathlib import Path
+
+import can
+from can.io.generic import MessageWriter
+from can.util import channel2int
+
+from swapcan.errors import SwapcanError, one_line
+
+_FAILURES = (OSError, TypeError, ValueError, sqlite3.Error, struct.error)
+"""What writers raise: `ValueError` comes of a closed file."""
+
+_CHANNELS = 0xFFFE
+"""The highest channel number that all formats can hold."""
+
+
+class RecordingError(SwapcanError):
+    """A log file cannot be written: one line says which and why."""
+
+
+class Recording:
+    """A log file that is being written; python-can knows its format by the suffix.
+
+    Raises `RecordingError` where the file is there already, cannot be made, or has a suffix that
+    python-can does not write.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.frames = 0
+        """How many were written."""
+        self._thread_error: BaseException | None = None
+        self._hook = threading.excepthook
+        before = set(threading.enumerate())
+        self._writer = _open(path)
+        # The SQLite writer has a thread; what goes wrong there would only be printed.
+        self._threads = set(threading.enumerate()) - before
+        if self._threads:
+            threading.excepthook = self._note_thread_error
+
+    def write(self, frame: can.Message) -> None:
+        """Write a frame; raises `RecordingError`."""
+        try:
+            self._writer.on_message_received(_writable(frame))
+        except _FAILURES as error:
+            raise self._error(error) from None
+        if self._thread_error:
+            raise self._error(self._thread_error)
+        self.frames += 1
+
+    def close(self) -> None:
+        """Write what is still on its way, and close the file; raises `RecordingError`."""
+        try:
+            self._writer.stop()
+        except _FAILURES as error:
+            # Some writers leave the file open where the last of it cannot be written.
+            with suppress(*_FAILURES, AttributeError):
+                self._writer.file.close()  # type: ignore[attr-defined]
+            raise self._error(error) from None
+        finally:
+            if self._threads:
+                threading.excepthook = self._hook
+        if self._thread_error:
+            raise self._error(self._thread_error)
+
+    def _note_thread_error(self, args: threading.ExceptHookArgs, /) -> None:
+        if args.thread in self._threads:
+            self._thread_error = args.exc_value
+        else:
+            self._hook(args)
+
+    def _error(self, error: BaseException) -> RecordingError:
+        return RecordingError(f"{self.path}: {_reason(error)}")
+
+
+def free_name(folder: Path, suffix: str = ".blf") -> Path:
+    """The first of swapcan-1, swapcan-2 and so on that is not there yet."""
+    number = 1
+    while (path := folder / f"swapcan-{number}{suffix}").exists():
+        number += 1
+    return path
+
+
+def _open(path: Path) -> MessageWriter:
+    try:
+        path.open("xb").close()  # writers replace what is there
+    except FileExistsError:
+        raise RecordingError(f"{path}: is there already, choose another name") from None
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written: {error.strerror}") from None
+    try:
+        return can.Logger(path)
+    except (*_FAILURES, NotImplementedError, ImportError) as error:
+        path.unlink(missing_ok=True)
+        problem = _reason(error)
+        if path.suffix.lower() not in (*can.io.logger.MESSAGE_WRITERS, ".gz"):
+            known = ", ".join(sorted(can.io.logger.MESSAGE_WRITERS))
+            problem = (
+                f"python-can writes no {path.suffix or 'file without a suffix'}; it writes {known}"
+            )
+        raise RecordingError(f"{path}: {problem}") from None
+
+
+def _writable(frame: can.Message) -> can.Message:
+    """The frame, without a channel that ends in too long a number, such as a serial number."""
+    number = channel2int(frame.channel)
+    if number is None or number < _CHANNELS:
+        return frame
+    writable = copy(frame)
+    writable.channel = None
+    return writable
+
+
+def _reason(error: BaseException) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    return one_line(error)

@@ -1,0 +1,122 @@
+"""The pack as text: its values in blocks beside each other, its alarms, and its cells as a map."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
+
+from rich.text import Text
+
+from swapcan.message import SignalState
+from swapcan.monitor.cells import Cell, CellMap
+from swapcan.monitor.pack import Item, Pack, Section
+from swapcan.monitor.picture import Picture
+from swapcan.monitor.view.styles import ALERT, age, mark_text
+from swapcan.transfer import Reading
+
+_BLOCK = 33
+"""Characters of one block and the gap after it."""
+
+_LABEL = 11
+_BARS = "▁▂▃▄▅▆▇█"
+_COLOURS = ("blue", "blue", "cyan", "", "", "magenta", "red", "red")
+_LEAST_SPAN = 0.02
+"""Volts that the map shows at least: a millivolt of difference is none."""
+
+
+def pack_text(picture: Picture, width: int) -> Text:
+    """All of it, in lines of that many characters at most."""
+    lines = [
+        *_alarms(picture.pack),
+        Text(),
+        *_blocks(picture.pack, width),
+        Text(f"VIN {picture.vin or '-'}    pack code {picture.pack_code or '-'}"),
+        Text(),
+        *_cells(picture.cells, width),
+    ]
+    for line in lines:
+        line.truncate(width, overflow="ellipsis")
+    return Text("\n").join(lines)
+
+
+def _blocks(pack: Pack, width: int) -> Iterator[Text]:
+    beside = max(1, width // _BLOCK)
+    for start in range(0, len(pack.sections), beside):
+        row = pack.sections[start : start + beside]
+        for parts in zip_longest(*(_block(section) for section in row)):
+            line = Text()
+            for part in (part or Text() for part in parts):
+                part.truncate(_BLOCK - 1, overflow="ellipsis")
+                part.pad_right(_BLOCK - len(part))
+                line.append_text(part)
+            line.rstrip()
+            yield line
+        yield Text()
+
+
+def _block(section: Section) -> list[Text]:
+    return [Text(section.title, "bold underline"), *map(_item, section.items)]
+
+
+def _item(item: Item) -> Text:
+    line = Text(f"{item.label:<{_LABEL}}")
+    if item.mark == "alarm":
+        return line.append(f"! {item.text}", ALERT)
+    line.append(f"{item.text or '-'} ")
+    # What is invalid says so itself.
+    return line.append_text(mark_text("" if item.mark == "invalid" else item.mark))
+
+
+def _alarms(pack: Pack) -> Iterator[Text]:
+    yield Text.assemble(("alarms", "bold underline"), f"  {len(pack.alarms) or 'none'}")
+    for alarm in pack.alarms:
+        yield Text.assemble(
+            (f"! {alarm.text}", ALERT),
+            f"  {alarm.title}, {alarm.message}, since {age(alarm.age)}",
+        )
+
+
+def _cells(cells: CellMap, width: int) -> Iterator[Text]:
+    yield Text("cells", "bold underline")
+    low, high = cells.lowest, cells.highest
+    if low is None or high is None:
+        yield Text("no cell voltage yet")
+        return
+    yield Text(_coverage(cells))
+    yield Text(f"{_BARS[0]} {_cell(low)}    {_BARS[-1]} {_cell(high)}    x invalid  · not received")
+    for csc, readings in cells.groups.items():
+        yield from _group(csc, readings, (low.volts, high.volts), width)
+
+
+def _coverage(cells: CellMap) -> str:
+    if cells.total is None:
+        return f"partial: {cells.received} cells received, their number is not known"
+    partial = "" if cells.is_complete else "partial: "
+    return f"{partial}{cells.received} of {cells.total} cells received in the last second"
+
+
+def _cell(cell: Cell) -> str:
+    return f"{cell.volts:.3f} V, CSC {cell.csc} no. {cell.number}"
+
+
+def _group(
+    csc: int, readings: Sequence[Reading | None], limits: tuple[float, float], width: int
+) -> Iterator[Text]:
+    heading = f"CSC {csc:<3} "
+    room = max(width - len(heading), 1)
+    for start in range(0, len(readings), room):
+        line = Text(" " * len(heading) if start else heading)
+        for reading in readings[start : start + room]:
+            line.append(*_bar(reading, *limits))
+        yield line
+
+
+def _bar(reading: Reading | None, low: float, high: float) -> tuple[str, str]:
+    if reading is None:
+        return "·", ""
+    if isinstance(reading, SignalState):
+        return "x", ALERT
+    span = max(high - low, _LEAST_SPAN)
+    bottom = (low + high - span) / 2
+    level = min(int((reading - bottom) / span * len(_BARS)), len(_BARS) - 1)
+    return _BARS[level], _COLOURS[level]

@@ -1,0 +1,101 @@
+"""A table whose rows are given anew several times a second: it keeps cursor and place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, Generic, TypeVar
+
+from rich.text import Text
+from textual.binding import Binding, BindingType
+from textual.widgets import DataTable
+
+from swapcan.monitor.view.columns import Column, fitting
+
+RowT = TypeVar("RowT")
+
+
+class Table(DataTable[Text], Generic[RowT]):
+    """Shows rows under the columns that fit.
+
+    Parameters
+    ----------
+    columns
+        All columns that there are.
+    id
+        Of the widget.
+    """
+
+    DEFAULT_CSS = """
+    Table { height: 1fr; background: ansi_default; scrollbar-size: 1 1; overflow-x: hidden; }
+    Table:focus { background-tint: ansi_default 0%; }
+    Table > .datatable--header, Table:ansi > .datatable--header {
+        background: ansi_default; color: ansi_default; text-style: bold underline;
+    }
+    Table > .datatable--cursor, Table:focus > .datatable--cursor {
+        background: ansi_default; color: ansi_default; text-style: reverse;
+    }
+    Table > .datatable--hover { background: ansi_default; }
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("left", "app.step(-1)", show=False),
+        Binding("right", "app.step(1)", show=False),
+    ]
+
+    def __init__(self, columns: Sequence[Column[RowT]], *, id: str) -> None:
+        super().__init__(id=id, cursor_type="row", cell_padding=0)
+        self._all_columns = columns
+        self._shown_columns: list[Column[RowT]] = []
+        self._names: list[str] = []
+        self._cells: list[list[Text]] = []
+
+    @property
+    def selected(self) -> str | None:
+        """The name of the row under the cursor; None in an empty table."""
+        row = self.cursor_row
+        return self._names[row] if 0 <= row < len(self._names) else None
+
+    def show(self, names: Sequence[str], rows: Sequence[RowT]) -> None:
+        """Show these rows; the cursor stays on the row of the same name."""
+        columns = fitting(self._all_columns, self.scrollable_content_region.width)
+        cells = [[_fitted(column.cell(row), column.width) for column in columns] for row in rows]
+        if columns != self._shown_columns or list(names) != self._names:
+            self._rebuild(columns, list(names), cells)
+        else:
+            self._update(cells)
+        self._cells = cells
+
+    def select(self, name: str) -> None:
+        """Put the cursor on a row, if it is there."""
+        if name in self._names:
+            self.move_cursor(row=self._names.index(name))
+
+    def _rebuild(
+        self, columns: list[Column[RowT]], names: list[str], cells: list[list[Text]]
+    ) -> None:
+        selected, place = self.selected, self.scroll_offset
+        self.clear(columns=columns != self._shown_columns)
+        if columns != self._shown_columns:
+            for column in columns:
+                self.add_column(column.name, key=column.name, width=column.width + 1)
+            self._shown_columns = columns
+        for name, row in zip(names, cells, strict=True):
+            self.add_row(*row, key=name)
+        self._names = names
+        self.scroll_to(*place, animate=False)
+        if selected is not None:
+            self.select(selected)
+
+    def _update(self, cells: list[list[Text]]) -> None:
+        for name, row, before in zip(self._names, cells, self._cells, strict=True):
+            for column, cell, old in zip(self._shown_columns, row, before, strict=True):
+                if cell != old or cell.style != old.style:
+                    self.update_cell(name, column.name, cell)
+
+
+def _fitted(cell: Text, width: int) -> Text:
+    """The cell, as wide as its column at most, and a number at the right of it."""
+    cell.truncate(width, overflow="ellipsis")
+    if cell.justify == "right":
+        cell.pad_left(width - len(cell))
+        cell.justify = None
+    return cell

@@ -1,0 +1,19 @@
+"""Live nodes: `Node` sends, receives, supervises and asks; what it tells are its events."""
+
+from swapcan.errors import SendingError
+from swapcan.node.answers import BatteryInfo
+from swapcan.node.events import BusBack, BusLost, Event, Overrun, SendFailed
+from swapcan.node.node import Node
+from swapcan.node.request import Pending
+
+__all__ = [
+    "BatteryInfo",
+    "BusBack",
+    "BusLost",
+    "Event",
+    "Node",
+    "Overrun",
+    "Pending",
+    "SendFailed",
+    "SendingError",
+]

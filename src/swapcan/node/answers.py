@@ -1,0 +1,93 @@
+"""The answers to requests: how each is put together, and what is told where it does not come."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+from swapcan.message import Message
+from swapcan.messages import B2V_BattInfo1, B2V_BattInfo2
+from swapcan.transfer import Problem
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+
+
+class Collector(Protocol[T_co]):
+    """Puts the answer to one request together."""
+
+    def take(self, message: Message, at: float) -> T_co | None:
+        """Take a message of the answer; the answer once it is complete."""
+        ...
+
+    def missing(self) -> str:
+        """What is not there yet, in a few words."""
+        ...
+
+
+class Assembler(Protocol[T_co]):
+    """What puts a transfer together, such as `VinAssembler`."""
+
+    def take(self, message: Message, at: float) -> tuple[T_co | Problem, ...]:
+        """What a message brings about."""
+        ...
+
+    def missing(self) -> str:
+        """What still lacks for a result."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class BatteryInfo:
+    """What the pack is: both of its messages, as they came last."""
+
+    info1: B2V_BattInfo1
+    info2: B2V_BattInfo2
+
+
+class TransferCollector(Generic[T]):
+    """Waits for a transfer to be complete, with an assembler that has seen nothing before."""
+
+    def __init__(self, assembler: Assembler[T]) -> None:
+        self._assembler = assembler
+        self._problem: Problem | None = None
+
+    def take(self, message: Message, at: float) -> T | None:
+        """Take a message of the transfer; its value once it is complete."""
+        for outcome in self._assembler.take(message, at):
+            if not isinstance(outcome, Problem):
+                return outcome
+            self._problem = outcome
+        return None
+
+    def missing(self) -> str:
+        """What still lacks, and what was wrong last."""
+        missing = self._assembler.missing()
+        return f"{missing} ({self._problem.text})" if self._problem else missing
+
+
+class BatteryInfoCollector:
+    """Waits for both messages."""
+
+    def __init__(self) -> None:
+        self._info1: B2V_BattInfo1 | None = None
+        self._info2: B2V_BattInfo2 | None = None
+
+    def take(self, message: Message, at: float) -> BatteryInfo | None:  # noqa: ARG002 - Collector
+        """Take one of the messages; the answer once there are both."""
+        if isinstance(message, B2V_BattInfo1):
+            self._info1 = message
+        elif isinstance(message, B2V_BattInfo2):
+            self._info2 = message
+        if self._info1 and self._info2:
+            return BatteryInfo(self._info1, self._info2)
+        return None
+
+    def missing(self) -> str:
+        """Which of the messages has not come."""
+        names = [
+            kind.NAME
+            for kind, message in ((B2V_BattInfo1, self._info1), (B2V_BattInfo2, self._info2))
+            if message is None
+        ]
+        return f"{' and '.join(names)} {'has' if len(names) == 1 else 'have'} not come"

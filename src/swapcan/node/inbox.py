@@ -1,0 +1,138 @@
+"""What a node does with each frame: decode it, supervise it, put transfers together, tell all."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+import can
+
+from swapcan.bus import Counts, Received, Receiver
+from swapcan.codec import Codec
+from swapcan.message import Message
+from swapcan.node.events import Dispatcher
+from swapcan.protocol import Protocol
+from swapcan.supervise import Supervisor
+from swapcan.supervise.events import State
+from swapcan.supervise.snapshot import Snapshot
+from swapcan.transfer import Transfers
+
+Hearer = Callable[[Received, float], object]
+"""Takes a message and the second at which it came."""
+
+
+class Inbox:
+    """Takes the frames of one bus in their order, in one thread at a time.
+
+    Parameters
+    ----------
+    name
+        The node. Where the bus gives its own messages back, they are no news.
+    hearers
+        By message, who else takes part in it.
+    """
+
+    def __init__(
+        self,
+        protocol: Protocol,
+        name: str,
+        codec: Codec,
+        supervisor: Supervisor,
+        dispatcher: Dispatcher,
+        hearers: Mapping[type[Message], Sequence[Hearer]],
+    ) -> None:
+        self._receiver = Receiver(codec)
+        self._supervisor = supervisor
+        self._emit = dispatcher.emit
+        self._own = frozenset(kind.FRAME_ID for kind in protocol.sent_by(name))
+        self._transfers = Transfers(protocol)
+        self._in_transfers = _in_transfers(protocol)
+        self._hearers = hearers
+        self._last: dict[type[Message], Received] = {}
+        self._lock = threading.Lock()
+
+    @property
+    def counts(self) -> Counts:
+        """How many frames came in and what became of them."""
+        return self._receiver.counts
+
+    @property
+    def next_check(self) -> float:
+        """When time alone changes something; `math.inf` for never."""
+        return min(self._supervisor.next_check, self._transfers.next_deadline)
+
+    def start(self, now: float) -> None:
+        """Begin to wait for messages."""
+        with self._lock:
+            self._supervisor.start(now)
+
+    def take(self, frame: can.Message, now: float) -> bool:
+        """Take a frame that came at ``now``; True where that may change `next_check`."""
+        if frame.arbitration_id in self._own:
+            return False
+        taken = self._receiver.take(frame)
+        if isinstance(taken, Received):
+            return self._take_message(taken, now)
+        if taken is None:
+            return False
+        with self._lock:
+            events = self._supervisor.fault(taken, now)
+        self._emit(taken)
+        self._emit_all(events)
+        return bool(events)
+
+    def check(self, now: float) -> None:
+        """Tell what changes by the passing of time."""
+        with self._lock:
+            events = self._supervisor.check(now)
+        self._emit_all(events)
+        if now >= self._transfers.next_deadline:
+            self._emit_all(self._transfers.expire(now))
+
+    def last(self, kind: type[Message]) -> Received | None:
+        """The message of a kind that came last."""
+        return self._last.get(kind)
+
+    def state(self, kind: type[Message]) -> State:
+        """How regularly a message comes in."""
+        with self._lock:
+            return self._supervisor.state(kind)
+
+    def snapshot(self, now: float) -> Snapshot:
+        """What supervision knows."""
+        with self._lock:
+            return self._supervisor.snapshot(now)
+
+    def missing(self, transfer: str) -> str:
+        """What a transfer lacks to be complete."""
+        return self._transfers.missing(transfer)
+
+    def _take_message(self, received: Received, now: float) -> bool:
+        kind = received.kind
+        with self._lock:
+            events = self._supervisor.take(received, now)
+        self._last[kind] = received
+        self._emit(received, kind)
+        if received.faults:
+            self._emit_all(received.faults)
+        if events:
+            self._emit_all(events)
+        if kind in self._in_transfers:
+            self._emit_all(self._transfers.take(received.message, now))
+        if kind in self._hearers:
+            for hearer in self._hearers[kind]:
+                hearer(received, now)
+        return bool(events)
+
+    def _emit_all(self, events: Iterable[object]) -> None:
+        for event in events:
+            self._emit(event)
+
+
+def _in_transfers(protocol: Protocol) -> frozenset[type[Message]]:
+    """The messages that say something about a transfer."""
+    kinds: set[type[Message]] = set()
+    for transfer in protocol.transfers:
+        totals = (transfer.count_field, transfer.groups_field)
+        kinds.update(transfer.messages, (ref.message for ref in totals if ref))
+    return frozenset(kinds)

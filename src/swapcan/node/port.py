@@ -1,0 +1,137 @@
+"""The bus as a live node sees it: it may go away, and it is tried again until it is back."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable
+
+import can
+
+from swapcan.clock import Clock
+from swapcan.errors import one_line
+from swapcan.node.events import BusBack, BusLost
+
+TROUBLE = (can.CanError, OSError, ValueError)
+"""What interfaces raise where a bus does not work: `ValueError` comes of a closed socket."""
+
+_FIRST_RETRY = 0.05
+_LAST_RETRY = 2.0
+"""Seconds between two attempts to receive: at first, and at most."""
+
+
+class Port:
+    """A bus that is lent, and the ones that are opened in its place once it is lost.
+
+    One thread may send while another one receives, if the bus lets them.
+
+    Parameters
+    ----------
+    bus
+        Is never closed here.
+    report
+        Is called, in the thread that notices it, when the bus is lost and when it is back.
+    reopen
+        Opens another bus where the one at hand does not work any more. What it opened is closed
+        here.
+    """
+
+    def __init__(
+        self,
+        bus: can.BusABC,
+        clock: Clock,
+        report: Callable[[BusLost | BusBack], None],
+        *,
+        reopen: Callable[[], can.BusABC] | None = None,
+    ) -> None:
+        self._bus = bus
+        self._clock = clock
+        self._report = report
+        self._reopen = reopen
+        self.on_new_bus: Callable[[], None] | None = None
+        """Is called once another bus is in place."""
+        self._owns_bus = False
+        self._lock = threading.Lock()
+        self._broken: set[str] = set()  # directions: "receive", "send"
+        self._retry_at = math.inf
+        self._delay = _FIRST_RETRY
+
+    @property
+    def bus(self) -> can.BusABC:
+        """The bus in use."""
+        return self._bus
+
+    @property
+    def retry_at(self) -> float:
+        """When it is worth to receive again; `math.inf` while the bus works."""
+        return self._retry_at
+
+    def send(self, frame: can.Message) -> None:
+        """Send a frame, or raise one of `TROUBLE`.
+
+        Nothing waits for a full queue: one that does not empty would hold up all other messages.
+        """
+        try:
+            self._bus.send(frame, timeout=0)
+        except TROUBLE as error:
+            self._fails("send", error)
+            raise
+        if self._broken:
+            self._works("send")
+
+    def receive(self, timeout: float) -> can.Message | None:
+        """The next frame; None where none arrives in ``timeout`` seconds or the bus is lost.
+
+        While it is lost this returns at once, and touches the bus only at `retry_at`.
+        """
+        try:
+            if self._retry_at == math.inf:
+                return self._bus.recv(timeout)
+            return self._try_again() if self._clock.now() >= self._retry_at else None
+        except TROUBLE as error:
+            self._retry_at = self._clock.now() + self._delay
+            self._delay = min(2 * self._delay, _LAST_RETRY)
+            self._fails("receive", error)
+            return None
+
+    def close(self) -> None:
+        """Close the bus if it was opened here."""
+        if self._owns_bus:
+            self._owns_bus = False
+            self._bus.shutdown()
+
+    def _try_again(self) -> can.Message | None:
+        try:
+            frame = self._bus.recv(0)
+        except TROUBLE:
+            if self._reopen is None:
+                raise
+            frame = self._open_another(self._reopen).recv(0)
+        self._retry_at = math.inf
+        self._delay = _FIRST_RETRY
+        self._works("receive")
+        return frame
+
+    def _open_another(self, reopen: Callable[[], can.BusABC]) -> can.BusABC:
+        # Before the new one: most adapters can be open only once.
+        self.close()
+        self._bus = reopen()
+        self._owns_bus = True
+        if self.on_new_bus:
+            self.on_new_bus()
+        return self._bus
+
+    def _fails(self, direction: str, error: Exception) -> None:
+        with self._lock:
+            first = not self._broken
+            self._broken.add(direction)
+        if first:
+            self._report(BusLost(one_line(error), self._clock.now()))
+
+    def _works(self, direction: str) -> None:
+        with self._lock:
+            was_broken = direction in self._broken
+            self._broken.discard(direction)
+            back = was_broken and not self._broken
+        if back:
+            self._report(BusBack(self._clock.now()))

@@ -1,0 +1,23 @@
+"""Supervision of what a node receives: which messages come, how regularly, with which faults."""
+
+from swapcan.supervise.events import (
+    NotSeen,
+    SignalChanged,
+    State,
+    StateChanged,
+    SupervisionEvent,
+)
+from swapcan.supervise.snapshot import MessageSnapshot, SignalSnapshot, Snapshot
+from swapcan.supervise.supervisor import Supervisor
+
+__all__ = [
+    "MessageSnapshot",
+    "NotSeen",
+    "SignalChanged",
+    "SignalSnapshot",
+    "Snapshot",
+    "State",
+    "StateChanged",
+    "SupervisionEvent",
+    "Supervisor",
+]
