@@ -47,7 +47,7 @@ def test_battery_info_is_asked_for_until_it_is_there_and_then_withdrawn(
     bench.run(0.5)
     assert pending.done()
     assert pending.result(0) == BatteryInfo(info1, info2)
-    # 1 asks, 2 takes it back; nothing (3) is said of the pack code.
+    # 1 asks, 2 takes it back; the pack code is not asked for (2) at any time.
     assert asked(tap) == [0b1001, 0b1010]
     bench.run(2.0)
     assert frames_on(tap) == []
@@ -96,7 +96,7 @@ def test_other_fields_of_the_message_that_asks_stay_as_they_were(
     bmu.request_vin()
     bench.run(0.1)
     # B2V_RQ: VIN in bits 0 and 1, HVOff in bits 2 and 3 of byte 0; 3 is invalid.
-    assert [frame.data[0] & 0b1111 for frame in frames_on(far)] == [0b0110, 0b0101]
+    assert [frame.data[0] & 0b1111 for frame in frames_on(far)] == [0b0111, 0b0101]
 
 
 def test_a_request_is_repeated_each_second_where_its_frame_was_lost(
