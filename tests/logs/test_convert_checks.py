@@ -25,7 +25,7 @@ from swapcan.logs.frames import FrameFlag
 from swapcan.logs.pipeline import Options
 from swapcan.logs.protocol import protocol_of
 from swapcan.logs.read import open_log
-from swapcan.messages import B2V_ST1, B2V_ST2, BSU_BMS_0, MESSAGES, V2B_CMD
+from swapcan.messages import B2V_ST1, B2V_ST2, BSU_BMS_0, MESSAGES, V2B_CMD, B2V_BattInfo2
 
 
 def _checked(log: Path, block_size: int, *, keep: bool = False) -> tuple[Faults, Counter[str]]:
@@ -184,3 +184,11 @@ def test_gaps_of_one_channel_are_not_filled_by_another(tmp_path: Path) -> None:
     faults, _ = _checked(log, 10)
     assert faults.gaps["B2V_ST2"].count == 1
     assert faults.gaps["B2V_ST2"].longest == pytest.approx(1.9)
+
+
+def test_messages_on_request_have_no_gap_when_the_request_is_withdrawn(tmp_path: Path) -> None:
+    # B2V_BattInfo2 has a period of 100 ms, while V2B_RQData asks for it.
+    frames = [can.Message(START + n / 10, B2V_BattInfo2.FRAME_ID, data=bytes(8)) for n in range(5)]
+    frames.append(can.Message(START + 9.0, V2B_CMD.FRAME_ID, data=bytes(8)))
+    faults, _ = _checked(write_frames(tmp_path / "x.log", frames), 10)
+    assert not faults.gaps

@@ -62,6 +62,13 @@ def open_bus(options: argparse.Namespace) -> can.BusABC:
         raise CommandError(f"cannot open the bus: {one_line(error)}{hint}") from None
 
 
+def bus_name(bus: can.BusABC, options: argparse.Namespace) -> str:
+    """What the bus is called, to people."""
+    if bus.channel_info != "unknown":  # python-can's word for what an interface does not tell
+        return bus.channel_info
+    return " ".join(filter(None, (options.interface, options.channel))) or "the configured bus"
+
+
 def _assignment(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not (equals and name.isidentifier()):

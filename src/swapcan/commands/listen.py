@@ -8,7 +8,7 @@ import time
 
 import can
 
-from swapcan.commands.bus_options import add_bus_options, open_bus
+from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.transcript import JSON_HELP, Transcript
 from swapcan.console import Command, count, note, seconds
 
@@ -26,7 +26,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
 def _run(options: argparse.Namespace) -> int:
     transcript = Transcript(as_json=options.json, live=True)
     with open_bus(options) as bus:
-        note(f"listening on {bus.channel_info}, Ctrl-C ends")
+        note(f"listening on {bus_name(bus, options)}, Ctrl-C ends")
         try:
             _copy(bus, transcript, options.count, time.monotonic() + options.seconds)
         except BrokenPipeError:

@@ -16,7 +16,7 @@ from types import FrameType
 import can
 
 from swapcan.clock import SystemClock
-from swapcan.commands.bus_options import add_bus_options, open_bus
+from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.monitor_lines import MonitorLines
 from swapcan.console import Command, CommandError, count, note, seconds
 from swapcan.errors import one_line
@@ -77,7 +77,7 @@ def _run(options: argparse.Namespace) -> int:
             listener = Listener(bus, session, reopen=lambda: _reopen(bus, options))
             with listener:
                 is_over = _end(options, session, listener)
-                status = show(options, session, _name(bus, options), is_over)
+                status = show(options, session, bus_name(bus, options), is_over)
     finally:
         if session and (ended := session.status().ended):
             note(str(ended))
@@ -136,12 +136,6 @@ def _print(lines: MonitorLines, interval: float, is_over: Callable[[], bool]) ->
         if time.monotonic() >= due:
             lines.summary()
             due += interval
-
-
-def _name(bus: can.BusABC, options: argparse.Namespace) -> str:
-    if bus.channel_info != "unknown":  # python-can's word for what an interface does not tell
-        return bus.channel_info
-    return " ".join(filter(None, (options.interface, options.channel))) or "the configured bus"
 
 
 def _has_terminal() -> bool:

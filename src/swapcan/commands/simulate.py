@@ -9,7 +9,7 @@ from contextlib import ExitStack
 from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.commands.bus_options import add_bus_options, open_bus
+from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.simulation_report import SimulationReport
 from swapcan.console import Command, aligned, note, say, seconds
 from swapcan.simulate.faults import FAULTS, able_nodes, planned_fault
@@ -99,7 +99,7 @@ def _run(options: argparse.Namespace) -> int:
             )
         )
         report = SimulationReport(simulation, as_json=options.json)
-        note(f"simulating {', '.join(names)} on {vehicle.bus.channel_info}, Ctrl-C ends")
+        note(f"simulating {', '.join(names)} on {bus_name(vehicle.bus, options)}, Ctrl-C ends")
         try:
             simulation.world.run(options.seconds)
         finally:

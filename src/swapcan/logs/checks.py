@@ -88,7 +88,11 @@ class Checks:
     def __init__(self, protocol: Protocol, *, keep_faulty: bool = False) -> None:
         self.faults = Faults()
         self._kinds = protocol.checked
-        self._periods = protocol.periods
+        self._periods = {
+            name: period
+            for name, period in protocol.periods.items()
+            if name not in protocol.conditional
+        }
         self._keep_faulty = keep_faulty
         self._counting = _counters(protocol)
         self._last_counter: dict[tuple[str, int | str | None], int | None] = {}

@@ -10,13 +10,12 @@ from pathlib import Path
 import cantools
 from cantools.database.can import Database, Message
 
-from swapcan import _generated
+from swapcan._generated.protocol import PROTOCOL
 from swapcan.database import dbc_text
 from swapcan.errors import SwapcanError, one_line
 from swapcan.logs.plan import Reserved
 from swapcan.logs.reserved import reserved_codes
 from swapcan.message import Message as OwnMessage
-from swapcan.messages import MESSAGES
 
 
 class DbcError(SwapcanError):
@@ -39,6 +38,8 @@ class Protocol:
         Where in the standard a signal stands, by names of message and signal.
     periods
         Seconds between two frames of a message that is sent periodically.
+    conditional
+        The names of those that are sent only while a condition holds: when they end is no gap.
     checked
         The classes of messages whose length, checksum and alive counter are known, by name.
     """
@@ -49,6 +50,7 @@ class Protocol:
     reserved: Reserved
     references: Mapping[tuple[str, str], str]
     periods: Mapping[str, float]
+    conditional: frozenset[str]
     checked: Mapping[str, type[OwnMessage]]
 
 
@@ -69,9 +71,11 @@ def protocol_of(dbc: Path | None = None) -> Protocol:
         raise DbcError(f"{dbc}: {error.strerror or error}") from None
     database = _load(text, str(dbc))
     digest = _digest(database)
-    if digest == _generated.DIGEST:
+    if digest == PROTOCOL.digest:
         return _own(database)
-    return Protocol(dbc.stem, digest, database.messages, {}, {}, _periods(database), {})
+    return Protocol(
+        dbc.stem, digest, database.messages, {}, {}, _periods(database), frozenset(), {}
+    )
 
 
 def _load(text: str, where: str) -> Database:
@@ -87,17 +91,18 @@ def _load(text: str, where: str) -> Database:
 
 def _own(database: Database) -> Protocol:
     return Protocol(
-        _generated.NAME,
-        _generated.DIGEST,
+        PROTOCOL.name,
+        PROTOCOL.digest,
         database.messages,
         reserved_codes(),
         {
             (message.NAME, part.dbc_name): part.reference
-            for message in MESSAGES
+            for message in PROTOCOL.messages
             for part in message.FIELDS.values()
         },
-        {message.NAME: message.PERIOD for message in MESSAGES if message.PERIOD},
-        {message.NAME: message for message in MESSAGES},
+        {message.NAME: message.PERIOD for message in PROTOCOL.messages if message.PERIOD},
+        frozenset(message.NAME for message in PROTOCOL.conditional),
+        {message.NAME: message for message in PROTOCOL.messages},
     )
 
 

@@ -62,7 +62,8 @@ const names = (strip) => strip.kind === "heat"
 function entry(strip, name, colour) {
   const span = element("span", strip.legend);
   if (colour !== null) element("i", span).style.background = `var(--c${colour})`;
-  element("b", span, name);
+  const title = element("b", span, name);
+  if (strip.kind === "curves" && strip.unit) title.dataset.unit = withUnit("in", strip.unit);
   strip.readings.push(element("span", span));
 }
 
