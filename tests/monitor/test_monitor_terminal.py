@@ -145,11 +145,12 @@ def test_the_view_shows_a_bus_obeys_keys_and_leaves_the_terminal_as_it_was(
 ) -> None:
     terminal.wait_for(lambda lines: any(_is_alive(line, "B2V_ST2") for line in lines))
     terminal.press("/", "S", "T", "2", "Enter")
-    lines = terminal.wait_for(lambda lines: "filter ST2" in lines[1])
-    assert not any(line.startswith("V2B_CMD") for line in lines)
+    # The screen is drawn piece by piece: each thing that is to be there is waited for.
+    terminal.wait_for(lambda lines: "filter ST2" in lines[1])
+    terminal.wait_for(lambda lines: not any(line.startswith("V2B_CMD") for line in lines))
     terminal.press("Enter")
-    lines = terminal.wait_for(lambda lines: lines[2].startswith("B2V_ST2  0x1882D0F3"))
-    assert any(line.split()[:3] == ["B2V_ST2_SOC", "76.4", "%"] for line in lines)
+    terminal.wait_for(lambda lines: lines[2].startswith("B2V_ST2  0x1882D0F3"))
+    terminal.wait_for(lambda lines: any(_shows_soc(line) for line in lines))
     terminal.press("Space")
     terminal.wait_for(lambda lines: "PAUSED" in lines[1])
     terminal.press("3")
@@ -209,3 +210,7 @@ def _runs(pid: int) -> bool:
 
 def _is_alive(line: str, name: str) -> bool:
     return line.startswith(name) and "alive" in line
+
+
+def _shows_soc(line: str) -> bool:
+    return line.split()[:3] == ["B2V_ST2_SOC", "76.4", "%"]
