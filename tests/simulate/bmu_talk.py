@@ -17,6 +17,11 @@ from swapcan.messages import (
     HvCommand,
     RelayState,
 )
+from swapcan.simulate.bmu import Bmu
+from swapcan.simulate.world import World
+
+Pack = tuple[Bmu, Outside, World]
+"""The pack, what is around it, and their time."""
 
 ON = V2B_CMD(
     hv_on_off=HvCommand.HV_ON, hv_acc_on_off=AccessoryHvCommand.HV_ACC_ON, vehicle_speed=0.0

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 from dataclasses import replace
 
 import can
 import pytest
-from simulate.bmu_talk import OFF, ON, number, relays, states
-from simulate.outside import Outside, alone
+from simulate.bmu_talk import OFF, ON, Pack, number, relays, states
+from simulate.outside import Outside
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.codec import encode
@@ -43,29 +42,10 @@ from swapcan.messages import (
     V2B_RQData,
     VinRequest,
 )
-from swapcan.simulate.bmu import PACK_CODE, Bmu
-from swapcan.simulate.world import World
+from swapcan.simulate.bmu import PACK_CODE
 from swapcan.transfer import split_vin
 
 VIN = "LDEMTRCK0R0000025"
-
-Pack = tuple[Bmu, Outside, World]
-
-
-@pytest.fixture
-def pack() -> Iterator[Pack]:
-    with alone(lambda bus, clock: Bmu(bus, clock=clock)) as all_three:
-        yield all_three
-
-
-@pytest.fixture
-def closed(pack: Pack) -> Pack:
-    """A pack that has switched high voltage on."""
-    _, vcu, _ = pack
-    vcu.say(ON)
-    vcu.run(2.5)
-    assert vcu.last(B2V_ST1).bms is BmsState.HV_CLOSED
-    return pack
 
 
 def test_it_sends_what_the_standard_asks_for_at_its_periods(pack: Pack) -> None:

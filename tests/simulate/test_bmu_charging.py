@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from simulate.outside import Outside, alone
+from simulate.bmu_talk import Pack
+from simulate.outside import Outside
 
 from swapcan.message import SignalState
 from swapcan.messages import (
@@ -28,8 +28,6 @@ from swapcan.messages import (
     HvCommand,
     RelayState,
 )
-from swapcan.simulate.bmu import Bmu
-from swapcan.simulate.world import World
 
 VOLTAGE = 79.9  # of the resting pack at its first state of charge
 IDLE = C2B_ACStatus(
@@ -39,14 +37,6 @@ IDLE = C2B_ACStatus(
 )
 READY = C2B_ACStatus(voltage_output=VOLTAGE, current_output=0.0, charger_start=ChargerOperation.ON)
 GIVING = replace(READY, voltage_output=86.4, current_output=60.0)
-
-Pack = tuple[Bmu, Outside, World]
-
-
-@pytest.fixture
-def pack() -> Iterator[Pack]:
-    with alone(lambda bus, clock: Bmu(bus, clock=clock)) as all_three:
-        yield all_three
 
 
 @pytest.fixture

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
-from simulate.bmu_talk import OFF, ON, number, relays, states
-from simulate.outside import Outside, alone
+from simulate.bmu_talk import OFF, ON, Pack, number, relays, states
+from simulate.outside import Outside
 
 from swapcan.message import SignalState
 from swapcan.messages import (
@@ -23,26 +21,6 @@ from swapcan.messages import (
     HvOffRequest,
     RelayState,
 )
-from swapcan.simulate.bmu import Bmu
-from swapcan.simulate.world import World
-
-Pack = tuple[Bmu, Outside, World]
-
-
-@pytest.fixture
-def pack() -> Iterator[Pack]:
-    with alone(lambda bus, clock: Bmu(bus, clock=clock)) as all_three:
-        yield all_three
-
-
-@pytest.fixture
-def closed(pack: Pack) -> Pack:
-    """A pack that has switched high voltage on."""
-    _, vcu, _ = pack
-    vcu.say(ON)
-    vcu.run(2.5)
-    assert vcu.last(B2V_ST1).bms is BmsState.HV_CLOSED
-    return pack
 
 
 def test_a_grave_fault_asks_for_high_voltage_off_until_it_is_gone(closed: Pack) -> None:

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from simulate.bmu_talk import OFF, ON, number
+from simulate.bmu_talk import OFF, ON, Pack, number
 from simulate.outside import Outside, alone
 
 from swapcan.clock import SimulatedClock
 from swapcan.messages import (
     B2V_ST0,
-    B2V_ST1,
     B2V_ST2,
     BMS_TMS_0,
     TMS_BMS_0,
     B2C_Charger,
-    BmsState,
     C2B_ACStatus,
     FaultFlag,
     HvRelayState,
@@ -30,24 +27,6 @@ from swapcan.simulate.battery import Battery
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.world import World
-
-Pack = tuple[Bmu, Outside, World]
-
-
-@pytest.fixture
-def pack() -> Iterator[Pack]:
-    with alone(lambda bus, clock: Bmu(bus, clock=clock)) as all_three:
-        yield all_three
-
-
-@pytest.fixture
-def closed(pack: Pack) -> Pack:
-    """A pack that has switched high voltage on."""
-    _, vcu, _ = pack
-    vcu.say(ON)
-    vcu.run(2.5)
-    assert vcu.last(B2V_ST1).bms is BmsState.HV_CLOSED
-    return pack
 
 
 def test_the_truck_draws_more_the_faster_it_drives_but_never_more_than_allowed(

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Protocol
+
+from swapcan.transfer.shape import Shape as PackShape
 
 _SURPLUS = 5
 """How many frames beyond what was seen show that there is more."""
@@ -39,7 +40,7 @@ class Shape(Protocol):
         """Readings beyond this one that have no value are nothing but fill."""
         ...
 
-    def see(self, csc: int, highest: int) -> bool:
+    def see(self, csc: int, highest: int, /) -> bool:
         """Note the highest reading with a value in a frame; whether it says anything new."""
         ...
 
@@ -56,38 +57,10 @@ class Shape(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Totals:
-    """How many CSCs and how many readings a pack has, as it says itself."""
-
-    groups: int
-    count: int
-
-
-class TotalsShape(Shape):
-    """The shape of a pack that tells its totals.
-
-    The highest reading with a value that a CSC ever sent is at most the number that it has. Where
-    these add up to the total, each of them is exactly that number. Before that, all CSCs of a pack
-    whose total they divide are taken to have the same number, until a reading speaks against it.
-    """
+class TotalsShape(PackShape):
+    """The shape of a pack that tells its totals, by the rules of the live runtime."""
 
     forgettable = False
-
-    def __init__(self, totals: Totals) -> None:
-        self.totals = totals
-        self._highest: dict[int, int] = {}
-        self._seen = 0
-
-    @property
-    def is_certain(self) -> bool:
-        """Whether all readings have had a value."""
-        return self._seen == self.totals.count
-
-    @property
-    def is_contradicted(self) -> bool:
-        """Whether there are more readings than the total."""
-        return self._seen > self.totals.count
 
     def has(self, csc: int) -> bool:
         """Whether the pack counts so many."""
@@ -98,28 +71,9 @@ class TotalsShape(Shape):
         del csc
         return self.totals.count
 
-    def see(self, csc: int, highest: int) -> bool:
-        """Note the highest reading with a value in a frame; whether it says anything new."""
-        known = self._highest.get(csc, 0)
-        if highest <= known:
-            return False
-        self._highest[csc] = highest
-        self._seen += highest - known
-        return True
-
     def known(self, csc: int) -> int:
         """The highest reading that has had a value."""
-        return self._highest.get(csc, 0)
-
-    def counts(self) -> Mapping[int, int] | None:
-        """The number of readings of each CSC, or None while it cannot be told."""
-        groups = range(1, self.totals.groups + 1)
-        if self.is_certain:
-            return {group: self._highest.get(group, 0) for group in groups}
-        each, rest = divmod(self.totals.count, self.totals.groups)
-        if rest or any(highest > each for highest in self._highest.values()):
-            return None
-        return dict.fromkeys(groups, each)
+        return self.highest(csc)
 
     def anew(self) -> TotalsShape:
         """The same before any frame came."""
