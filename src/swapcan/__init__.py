@@ -1,5 +1,10 @@
 """swapcan: the CAN protocol of battery-swap heavy trucks, typed, on any python-can bus."""
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.bus import Counts, Fault, Link, Received
 from swapcan.codec import Codec, decode, encode
@@ -21,18 +26,28 @@ from swapcan.errors import (
     UnknownNodeError,
 )
 from swapcan.message import Message, SignalState
-from swapcan.node import (
-    BatteryInfo,
-    BusBack,
-    BusLost,
-    Event,
-    Node,
-    Overrun,
-    Pending,
-    SendFailed,
-)
-from swapcan.supervise import NotSeen, SignalChanged, State, StateChanged
-from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
+
+# Live nodes are imported when they are used: a program that decodes a frame starts without them.
+# All names, with their types, stand in __init__.pyi.
+_HOMES = {
+    "BatteryInfo": "swapcan.node",
+    "BusBack": "swapcan.node",
+    "BusLost": "swapcan.node",
+    "Event": "swapcan.node",
+    "Node": "swapcan.node",
+    "Overrun": "swapcan.node",
+    "Pending": "swapcan.node",
+    "SendFailed": "swapcan.node",
+    "NotSeen": "swapcan.supervise",
+    "SignalChanged": "swapcan.supervise",
+    "State": "swapcan.supervise",
+    "StateChanged": "swapcan.supervise",
+    "CellVoltages": "swapcan.transfer",
+    "PackCode": "swapcan.transfer",
+    "ProbeTemperatures": "swapcan.transfer",
+    "Problem": "swapcan.transfer",
+    "Vin": "swapcan.transfer",
+}
 
 __all__ = [
     "PROTOCOL",
@@ -79,3 +94,12 @@ __all__ = [
     "encode",
     "message_type",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """A name of live nodes, from the module that has it."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value
