@@ -1,10 +1,13 @@
-"""What all tests share: the project under test, and payloads that are the same on every run."""
+"""What all tests share: the project under test, virtual buses, payloads as in every other run."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from uuid import uuid4
 
+import can
 import pytest
 from hypothesis import settings
 
@@ -37,3 +40,35 @@ def project(root: Path) -> Project:
 def protocol(project: Project) -> Protocol:
     """The model of the project's own spec."""
     return project.protocol
+
+
+@pytest.fixture
+def channel() -> str:
+    """A channel of the virtual interface that nobody else has."""
+    return f"test-{uuid4()}"
+
+
+@pytest.fixture
+def open_bus(channel: str) -> Iterator[Callable[..., can.BusABC]]:
+    """Opens buses on the channel, and closes them after the test."""
+    buses: list[can.BusABC] = []
+
+    def open_one(**options: object) -> can.BusABC:
+        bus = can.Bus(channel, "virtual", ignore_config=True, **options)  # type: ignore[arg-type]
+        buses.append(bus)
+        return bus
+
+    yield open_one
+    for bus in buses:
+        bus.shutdown()
+
+
+@pytest.fixture
+def near(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
+    return open_bus()
+
+
+@pytest.fixture
+def far(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
+    """The other end of `near`."""
+    return open_bus()

@@ -17,7 +17,7 @@ from logs.table_logs import START, traffic, write_frames
 
 import swapcan
 from swapcan import cli
-from swapcan.commands import convert
+from swapcan.commands import convert, log_options
 from swapcan.logs.convert import tables
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.logs.plan import Mode
@@ -279,6 +279,6 @@ def test_a_missing_extra_is_named(
     capsys: pytest.CaptureFixture[str],
     package: str,
 ) -> None:
-    monkeypatch.setattr(convert, "find_spec", lambda name: None if name == package else name)
+    monkeypatch.setattr(log_options, "find_spec", lambda name: None if name == package else name)
     assert _run(log, "-o", tmp_path / "x.parquet") == 2
     assert f"needs {package}: pip install 'swapcan[logs]'" in capsys.readouterr().err

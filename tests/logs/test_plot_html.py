@@ -158,7 +158,7 @@ def in_chromium(page: Path, *, width: int) -> tuple[str, str]:
             "--v=0",
             f"--user-data-dir={page.parent / 'profile'}",
             f"--window-size={width},900",
-            "--virtual-time-budget=10000",
+            "--virtual-time-budget=60000",
             "--dump-dom",
             page.as_uri(),
         ],

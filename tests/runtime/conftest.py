@@ -1,52 +1,18 @@
-"""Virtual buses, and the command line as users start it."""
+"""The command line as users start it."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
-from uuid import uuid4
 
-import can
 import pytest
 
 import swapcan
 
 SOURCE = Path(swapcan.__file__).parents[1]
-
-
-@pytest.fixture
-def channel() -> str:
-    """A channel of the virtual interface that nobody else has."""
-    return f"test-{uuid4()}"
-
-
-@pytest.fixture
-def open_bus(channel: str) -> Iterator[Callable[..., can.BusABC]]:
-    """Opens buses on the channel, and closes them after the test."""
-    buses: list[can.BusABC] = []
-
-    def open_one(**options: object) -> can.BusABC:
-        bus = can.Bus(channel, "virtual", ignore_config=True, **options)  # type: ignore[arg-type]
-        buses.append(bus)
-        return bus
-
-    yield open_one
-    for bus in buses:
-        bus.shutdown()
-
-
-@pytest.fixture
-def near(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
-    return open_bus()
-
-
-@pytest.fixture
-def far(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
-    """The other end of `near`."""
-    return open_bus()
 
 
 @pytest.fixture

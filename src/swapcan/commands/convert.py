@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from importlib.util import find_spec
 from pathlib import Path
 
-from swapcan.console import Command, CommandError, count
-
-_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
+from swapcan.commands.log_options import (
+    add_dbc_option,
+    add_window_options,
+    completing_files,
+    need,
+)
+from swapcan.console import Command, count
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,10 +35,8 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
             "Where everything is converted, the cells and probes of a pack come as columns too"
         ),
     )
-    for each in (logs, output):
-        vars(each)["complete"] = _FILE
-    dbc = parser.add_argument("--dbc", type=Path, metavar="FILE", help="decode by this DBC file")
-    vars(dbc)["complete"] = _FILE
+    completing_files(logs, output)
+    add_dbc_option(parser)
     _add_choice(parser)
     parser.add_argument(
         "--keep-faulty", action="store_true", help="keep frames with a wrong length or checksum"
@@ -55,13 +56,7 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             name, help=text, type=_names, action="extend", default=[], metavar="NAME,..."
         )
-    parser.add_argument(
-        "--from",
-        dest="start",
-        metavar="TIME",
-        help="seconds since the log's begin, or a date like 2025-06-30T14:05:00 (local time)",
-    )
-    parser.add_argument("--to", dest="end", metavar="TIME", help="the same")
+    add_window_options(parser)
     values = parser.add_mutually_exclusive_group()
     values.add_argument("--raw", action="store_true", help="raw values, not scaled")
     values.add_argument("--labels", action="store_true", help="labels in place of their codes")
@@ -82,9 +77,7 @@ def _names(text: str) -> list[str]:
 
 
 def _run(options: argparse.Namespace) -> int:
-    for name in ("numpy", "pyarrow"):
-        if find_spec(name) is None:
-            raise CommandError(f"this needs {name}: pip install 'swapcan[logs]'")
+    need("numpy", "pyarrow")
     from swapcan.commands.conversion import run
 
     return run(options)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from importlib.util import find_spec
 from pathlib import Path
 
-from swapcan.console import Command, CommandError
-
-# What shtab calls a file, for the completion of shells.
-_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
+from swapcan.commands.log_options import (
+    add_dbc_option,
+    add_window_options,
+    completing_files,
+    need,
+)
+from swapcan.console import Command
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,9 +29,8 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="OUT",
         help=".html: a page to zoom and to read values off; .png: a picture, needs matplotlib",
     )
-    dbc = parser.add_argument("--dbc", type=Path, metavar="FILE", help="decode by this DBC file")
-    for each in (log, output, dbc):
-        vars(each)["complete"] = _FILE
+    add_dbc_option(parser)
+    completing_files(log, output)
     parser.add_argument(
         "--signals",
         type=_names,
@@ -40,13 +41,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--cells", action="store_true", help="cell voltages as a heat map")
     parser.add_argument("--probes", action="store_true", help="probe temperatures as a heat map")
-    parser.add_argument(
-        "--from",
-        dest="start",
-        metavar="TIME",
-        help="seconds since the log's begin, or a date like 2025-06-30T14:05:00 (local time)",
-    )
-    parser.add_argument("--to", dest="end", metavar="TIME", help="the same")
+    add_window_options(parser)
     parser.add_argument("--force", action="store_true", help="replace OUT where it exists")
 
 
@@ -55,8 +50,7 @@ def _names(text: str) -> list[str]:
 
 
 def _run(options: argparse.Namespace) -> int:
-    if find_spec("numpy") is None:
-        raise CommandError("this needs numpy: pip install 'swapcan[logs]'")
+    need("numpy")
     from swapcan.commands.plotting import run
 
     return run(options)
