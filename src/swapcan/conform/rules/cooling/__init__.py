@@ -1,0 +1,7 @@
+"""The cooling unit."""
+
+from __future__ import annotations
+
+from swapcan.conform.rule import Rule
+
+RULES: tuple[Rule, ...] = ()

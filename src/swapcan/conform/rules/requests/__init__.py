@@ -1,0 +1,7 @@
+"""Requests and their answers."""
+
+from __future__ import annotations
+
+from swapcan.conform.rule import Rule
+
+RULES: tuple[Rule, ...] = ()

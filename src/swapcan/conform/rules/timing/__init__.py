@@ -1,0 +1,7 @@
+"""When messages come."""
+
+from __future__ import annotations
+
+from swapcan.conform.rule import Rule
+
+RULES: tuple[Rule, ...] = ()

@@ -1,0 +1,60 @@
+"""What the simulated nodes send, recorded: the frames of both wires in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+import can
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.simulate import DEFAULT_PLAN, Simulation, plan_of, planned_fault
+from swapcan.simulate.simulated_bus import SimulatedBus
+
+DEFAULT = ", ".join(map(str, DEFAULT_PLAN))
+
+
+@cache
+def recorded(
+    plan: str = DEFAULT,
+    *faults: str,
+    seconds: float = 140.0,
+    nodes: tuple[str, ...] = PROTOCOL.nodes,
+    seed: int = 0,
+) -> tuple[can.Message, ...]:
+    """The frames of a run on the simulated clock; channels are ``vehicle`` and ``charger``.
+
+    Parameters
+    ----------
+    plan, faults
+        As `swapcan simulate` takes them, such as ``hv_on@1s, drive@3s`` and ``lost_frame@20s``.
+    """
+    frames: list[can.Message] = []
+    with Simulation.simulated(
+        nodes, plan=plan_of(plan), faults=[planned_fault(fault) for fault in faults], seed=seed
+    ) as simulation:
+        buses = [SimulatedBus(wire) for wire in simulation.wires]
+
+        def listen() -> None:
+            for bus in buses:
+                while frame := bus.recv(0):
+                    frames.append(frame)
+
+        simulation.world.after_each_step(listen)
+        simulation.world.run(seconds)
+        listen()
+        for bus in buses:
+            bus.shutdown()
+    return tuple(sorted(frames, key=lambda frame: frame.timestamp))
+
+
+def written(frames: Iterable[can.Message], path: Path) -> Path:
+    """Write frames as a candump log, each channel by its name."""
+    lines = [
+        f"({frame.timestamp:.6f}) {frame.channel} "
+        f"{frame.arbitration_id:0{8 if frame.is_extended_id else 3}X}#{frame.data.hex().upper()}\n"
+        for frame in frames
+    ]
+    path.write_text("".join(lines), "ascii", newline="\n")
+    return path

@@ -1,0 +1,77 @@
+"""Each rule on its case folder: ``passes.log`` breaks nothing, ``fails.log`` what is expected."""
+
+from __future__ import annotations
+
+import pkgutil
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from swapcan.conform import RULES, Judgement, Rule, RuleResult, Status, judge_log
+from swapcan.conform import rules as folders
+
+CASES = Path(__file__).with_name("cases")
+
+over_all_rules = pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+
+
+def result(rule: Rule, log: str) -> RuleResult:
+    """What one rule finds in a log of its case folder."""
+    judgement: Judgement = judge_log(CASES / rule.id / log, rules=[rule])
+    assert judgement.damage == ()
+    return judgement.result(rule.id)
+
+
+def lines(found: RuleResult) -> list[str]:
+    """The occurrences as expected.txt has them: when, how many frames, who, about what, what."""
+    return [
+        f"{each.start:.3f} to {each.end:.3f} s, frames: {each.frames}: "
+        f"{each.subject.node}: {each.subject}: {each.says()}"
+        for each in found.occurrences
+    ]
+
+
+@over_all_rules
+def test_a_rule_finds_what_is_expected(rule: Rule) -> None:
+    expected = (CASES / rule.id / "expected.txt").read_text("utf-8").splitlines()
+    assert expected
+    assert lines(result(rule, "fails.log")) == expected
+
+
+@over_all_rules
+def test_a_rule_passes_a_near_miss_that_it_has_examined(rule: Rule) -> None:
+    found = result(rule, "passes.log")
+    assert lines(found) == []
+    assert found.status is Status.PASSED
+
+
+@over_all_rules
+def test_a_rule_says_the_same_in_chinese(rule: Rule) -> None:
+    for each in result(rule, "fails.log").occurrences:
+        assert re.search(r"[\u4e00-\u9fff]", each.says("zh"))
+    for text in (rule.title, rule.purpose, *(each.text for each in rule.tolerances)):
+        assert re.search(r"[\u4e00-\u9fff]", text.zh)
+
+
+def test_every_rule_has_a_case_folder_and_every_folder_a_rule() -> None:
+    assert {path.name for path in CASES.iterdir()} == {rule.id for rule in RULES}
+
+
+def test_every_module_with_a_rule_is_registered_under_the_name_of_its_file() -> None:
+    modules = {
+        info.name.rpartition(".")[2]: import_module(info.name)
+        for info in pkgutil.walk_packages(folders.__path__, f"{folders.__name__}.")
+    }
+    found = {name: module.RULE for name, module in modules.items() if hasattr(module, "RULE")}
+    assert {name.replace("_", "-") for name in found} == {rule.id for rule in found.values()}
+    assert {rule.id for rule in RULES} == {rule.id for rule in found.values()}
+
+
+def test_ids_of_rules_and_names_of_tolerances_are_unique() -> None:
+    ids = [rule.id for rule in RULES]
+    names = [each.name for rule in RULES for each in rule.tolerances]
+    assert len(ids) == len(set(ids))
+    assert len(names) == len(set(names))
+    assert all(each.name.startswith(f"{rule.id}.") for rule in RULES for each in rule.tolerances)
