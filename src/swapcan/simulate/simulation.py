@@ -11,6 +11,7 @@ import can
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.clock import Clock, SimulatedClock, SystemClock
+from swapcan.simulate.battery import Battery
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.chg import Chg
@@ -58,6 +59,8 @@ class Simulation:
         What chance is drawn from.
     vin
         Of the truck.
+    battery
+        Of the pack, where it is not to be the usual.
 
     Raises
     ------
@@ -79,6 +82,7 @@ class Simulation:
         wires: tuple[SimulatedWire, ...] = (),
         seed: int = 0,
         vin: str = VIN,
+        battery: Battery | None = None,
     ) -> None:
         names, plan, faults = tuple(nodes), tuple(plan), tuple(faults)
         check(names, plan, faults)
@@ -87,7 +91,8 @@ class Simulation:
         self.buses: dict[str, tuple[FaultyBus, ...]] = {}
         self._vehicle, self._charger = vehicle, charger or vehicle
         try:
-            self.bmu = self._bmu(seed, apart=charger is not None) if "BMU" in names else None
+            apart = charger is not None
+            self.bmu = self._bmu(seed, battery, apart=apart) if "BMU" in names else None
             self.vcu = Vcu(self._bus("VCU"), clock=self.clock, vin=vin) if "VCU" in names else None
             self.chg = self._chg(plan) if "CHG" in names else None
             self.tms = Tms(self._bus("TMS"), clock=self.clock) if "TMS" in names else None
@@ -112,6 +117,7 @@ class Simulation:
         plan: Iterable[PlannedStep] = (),
         faults: Iterable[PlannedFault] = (),
         seed: int = 0,
+        battery: Battery | None = None,
     ) -> Self:
         """Nodes on simulated buses, one for the vehicle and one for the charger, and clock."""
         clock = SimulatedClock()
@@ -125,6 +131,7 @@ class Simulation:
             clock=clock,
             wires=(vehicle, charger),
             seed=seed,
+            battery=battery,
         )
 
     def __enter__(self) -> Self:
@@ -177,9 +184,10 @@ class Simulation:
         self.buses[node] = (*self.buses.get(node, ()), bus)
         return bus
 
-    def _bmu(self, seed: int, *, apart: bool) -> Bmu:
+    def _bmu(self, seed: int, battery: Battery | None, *, apart: bool) -> Bmu:
         charger = self._bus("BMU", charger=True) if apart else None
-        return Bmu(self._bus("BMU"), clock=self.clock, charger=charger, seed=seed)
+        vehicle = self._bus("BMU")
+        return Bmu(vehicle, clock=self.clock, charger=charger, seed=seed, battery=battery)
 
     def _chg(self, plan: tuple[PlannedStep, ...]) -> Chg:
         later = any(step.name == "charge" for step in plan)

@@ -1,0 +1,199 @@
+"""Judging millions of frames by all rules: python tests/benchmarks/judge_logs.py [--frames 20].
+
+Nothing here is asserted. The frames are those of all five simulated nodes with a pack of 2 CSCs
+and with one of 18, recorded for some minutes and repeated until there are as many as asked for,
+alive counters and checksums going on. Prints frames per second of processor time, on one core: the
+vectorised decoder alone, all rules together, and what each rule takes. ``--log`` also writes the
+frames of the first pack to a BLF file and judges that, reading included.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import can
+import numpy as np
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform import RULES, Judge, judge_log
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.rule import Rule, Watcher
+from swapcan.logs.decode import Decoder
+from swapcan.logs.frames import FrameBlock, FrameFlag
+from swapcan.logs.plan import Mode
+from swapcan.logs.protocol import protocol_of
+from swapcan.simulate import Battery, Layout, Simulation, plan_of
+from swapcan.simulate.simulated_bus import SimulatedBus
+
+_BLOCK = 1 << 17
+_PLAN = plan_of("hv_on@1s, ask@2s, drive@3s+80s, charge@95s+60s, hv_off@170s")
+_RUN = 180.0
+_PACKS = {"2 x 12 cells": Layout(), "18 x 12 cells": Layout(cscs=18)}
+
+
+def record(layout: Layout, seconds: float) -> list[can.Message]:
+    """What goes over both wires in a run on the simulated clock, in its order."""
+    frames: list[can.Message] = []
+    with Simulation.simulated(plan=_PLAN, battery=Battery(layout)) as simulation:
+        buses = [SimulatedBus(wire) for wire in simulation.wires]
+
+        def listen() -> None:
+            for bus in buses:
+                while frame := bus.recv(0):
+                    frames.append(frame)
+
+        simulation.world.after_each_step(listen)
+        simulation.world.run(seconds)
+        for bus in buses:
+            bus.shutdown()
+    return sorted(frames, key=lambda frame: frame.timestamp)
+
+
+def block_of(frames: list[can.Message]) -> FrameBlock:
+    """Frames as columns."""
+    channels = tuple(dict.fromkeys(frame.channel for frame in frames))
+    return FrameBlock(
+        np.array([frame.timestamp for frame in frames]),
+        np.array([frame.arbitration_id for frame in frames], np.uint32),
+        np.full(len(frames), FrameFlag.EXTENDED, np.uint8),
+        np.array([channels.index(frame.channel) for frame in frames], np.int16),
+        np.full(len(frames), 8, np.uint8),
+        np.frombuffer(b"".join(bytes(frame.data) for frame in frames), np.uint8).reshape(-1, 8),
+        channels,
+    )
+
+
+def repeated(once: FrameBlock, frames: int) -> Iterator[FrameBlock]:
+    """The same again and again, later each time, in blocks."""
+    places = np.arange(_BLOCK)
+    for begin in range(0, frames, _BLOCK):
+        at = begin + places[: frames - begin]
+        rounds, rows = np.divmod(at, len(once))
+        data = once.data[rows]
+        _count_on(once, data, rounds, rows)
+        yield FrameBlock(
+            once.timestamp[rows] + rounds * _RUN,
+            once.frame_id[rows],
+            once.flags[rows],
+            once.channel[rows],
+            once.length[rows],
+            data,
+            once.channels,
+        )
+
+
+def _count_on(once: FrameBlock, data: np.ndarray, rounds: np.ndarray, rows: np.ndarray) -> None:
+    """Let alive counters run on from round to round, and mend the checksums."""
+    database = {message.name: message for message in protocol_of().messages}
+    for kind in PROTOCOL.messages:
+        if kind.COUNTER is None:
+            continue
+        own = np.flatnonzero(once.frame_id[rows] == kind.FRAME_ID)
+        step = int((once.frame_id == kind.FRAME_ID).sum()) % kind.COUNTER.modulus
+        signal = database[kind.NAME].get_signal_by_name(kind.COUNTER.dbc_name)
+        byte, shift = divmod(
+            signal.start
+            if signal.byte_order == "little_endian"
+            else signal.start - signal.length + 1,
+            8,
+        )
+        mask = (1 << signal.length) - 1
+        held = data[own, byte].astype(np.int64)
+        count = ((held >> shift & mask) + rounds[own] * step) % kind.COUNTER.modulus
+        data[own, byte] = (held & ~(mask << shift)) | count << shift
+        if kind.CHECKSUM is not None and kind.CHECKSUM.algorithm == "xor":
+            data[own, 0] = np.bitwise_xor.reduce(data[own, 1:], axis=1)
+
+
+def timed(rules: tuple[Rule, ...], spent: dict[str, float]) -> tuple[Rule, ...]:
+    """The same rules, which note the seconds that each takes."""
+
+    def watching(rule: Rule):  # noqa: ANN202
+        def watch(findings):  # noqa: ANN001, ANN202
+            watcher: Watcher = rule.watch(findings)
+            take = watcher.take
+
+            def measured(chunk: Chunk) -> None:
+                begin = time.process_time()
+                take(chunk)
+                spent[rule.id] += time.process_time() - begin
+
+            watcher.take = measured  # type: ignore[method-assign]
+            return watcher
+
+        return watch
+
+    from dataclasses import replace
+
+    return tuple(replace(rule, watch=watching(rule)) for rule in rules)
+
+
+def main() -> None:
+    """Print all."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--frames", type=float, default=20.0, metavar="MILLIONS")
+    parser.add_argument("--log", action="store_true")
+    options = parser.parse_args()
+    frames = int(options.frames * 1e6)
+    print(f"Python {sys.version.split()[0]}, numpy {np.__version__}, rules: {len(RULES)}")
+    for name, layout in _PACKS.items():
+        once = block_of(record(layout, _RUN))
+        print(f"\na pack of {name}: {frames:,} frames, {len(once) / _RUN:,.0f} a second on the bus")
+        decoder = Decoder(protocol_of().messages, mode=Mode.RAW)
+        decoding = judging = 0.0
+        judge = Judge()
+        for block in repeated(once, frames):
+            begin = time.process_time()
+            decoder.decode(block)
+            middle = time.process_time()
+            judge.take(block)
+            judging += time.process_time() - middle
+            decoding += middle - begin
+        begin = time.process_time()
+        judgement = judge.finish()
+        judging += time.process_time() - begin
+        found = sum(result.count for result in judgement.results)
+        print(f"  decoder alone {frames / decoding / 1e6:8.2f} M frames/s")
+        print(f"  all rules     {frames / judging / 1e6:8.2f} M frames/s, found: {found}")
+        _each_rule(once, min(frames, 2_000_000))
+    if options.log:
+        _judge_file(once, frames)
+
+
+def _each_rule(once: FrameBlock, frames: int) -> None:
+    spent: dict[str, float] = defaultdict(float)
+    judge = Judge(rules=timed(RULES, spent))
+    for block in repeated(once, frames):
+        judge.take(block)
+    print(f"  ns a frame    {'total':<28}{sum(spent.values()) / frames * 1e9:8.1f}")
+    for rule_id, seconds in sorted(spent.items(), key=lambda item: -item[1])[:15]:
+        print(f"                {rule_id:<28}{seconds / frames * 1e9:8.1f}")
+
+
+def _judge_file(once: FrameBlock, frames: int) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "pack.blf"
+        with can.BLFWriter(path) as writer:
+            for block in repeated(once, frames):
+                for time_, number, channel, data in zip(
+                    block.timestamp, block.frame_id, block.channel, block.data, strict=True
+                ):
+                    writer.on_message_received(
+                        can.Message(time_ + 1.7e9, int(number), channel=int(channel), data=data)
+                    )
+        begin = time.process_time()
+        judge_log(path)
+        seconds = time.process_time() - begin
+        print(
+            f"\nBLF of {frames:,} frames, read and judged: {frames / seconds / 1e6:.2f} M frames/s"
+        )
+
+
+if __name__ == "__main__":
+    main()
