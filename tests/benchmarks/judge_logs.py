@@ -15,58 +15,28 @@ import tempfile
 import time
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import can
 import numpy as np
+from conform.recorded import block_of, recorded
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, judge_log
 from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Rule, Watcher
 from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock, FrameFlag
+from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import protocol_of
-from swapcan.simulate import Battery, Layout, Simulation, plan_of
-from swapcan.simulate.simulated_bus import SimulatedBus
 
 _BLOCK = 1 << 17
-_PLAN = plan_of("hv_on@1s, ask@2s, drive@3s+80s, charge@95s+60s, hv_off@170s")
+_PLAN = "hv_on@1s, ask@2s, drive@3s+80s, charge@95s+60s, hv_off@170s"
 _RUN = 180.0
-_PACKS = {"2 x 12 cells": Layout(), "18 x 12 cells": Layout(cscs=18)}
-
-
-def record(layout: Layout, seconds: float) -> list[can.Message]:
-    """What goes over both wires in a run on the simulated clock, in its order."""
-    frames: list[can.Message] = []
-    with Simulation.simulated(plan=_PLAN, battery=Battery(layout)) as simulation:
-        buses = [SimulatedBus(wire) for wire in simulation.wires]
-
-        def listen() -> None:
-            for bus in buses:
-                while frame := bus.recv(0):
-                    frames.append(frame)
-
-        simulation.world.after_each_step(listen)
-        simulation.world.run(seconds)
-        for bus in buses:
-            bus.shutdown()
-    return sorted(frames, key=lambda frame: frame.timestamp)
-
-
-def block_of(frames: list[can.Message]) -> FrameBlock:
-    """Frames as columns."""
-    channels = tuple(dict.fromkeys(frame.channel for frame in frames))
-    return FrameBlock(
-        np.array([frame.timestamp for frame in frames]),
-        np.array([frame.arbitration_id for frame in frames], np.uint32),
-        np.full(len(frames), FrameFlag.EXTENDED, np.uint8),
-        np.array([channels.index(frame.channel) for frame in frames], np.int16),
-        np.full(len(frames), 8, np.uint8),
-        np.frombuffer(b"".join(bytes(frame.data) for frame in frames), np.uint8).reshape(-1, 8),
-        channels,
-    )
+_PACKS = (2, 18)
 
 
 def repeated(once: FrameBlock, frames: int) -> Iterator[FrameBlock]:
@@ -111,27 +81,24 @@ def _count_on(once: FrameBlock, data: np.ndarray, rounds: np.ndarray, rows: np.n
             data[own, 0] = np.bitwise_xor.reduce(data[own, 1:], axis=1)
 
 
-def timed(rules: tuple[Rule, ...], spent: dict[str, float]) -> tuple[Rule, ...]:
-    """The same rules, which note the seconds that each takes."""
+class _Timed(Watcher):
+    """Takes chunks for a rule, and notes the seconds that it needs."""
 
-    def watching(rule: Rule):  # noqa: ANN202
-        def watch(findings):  # noqa: ANN001, ANN202
-            watcher: Watcher = rule.watch(findings)
-            take = watcher.take
+    def __init__(self, rule: Rule, spent: dict[str, float], findings: Findings) -> None:
+        super().__init__(findings)
+        self._watcher = rule.watch(findings)
+        self._id = rule.id
+        self._spent = spent
 
-            def measured(chunk: Chunk) -> None:
-                begin = time.process_time()
-                take(chunk)
-                spent[rule.id] += time.process_time() - begin
+    def take(self, chunk: Chunk) -> None:
+        """Let the rule judge."""
+        begin = time.process_time()
+        self._watcher.take(chunk)
+        self._spent[self._id] += time.process_time() - begin
 
-            watcher.take = measured  # type: ignore[method-assign]
-            return watcher
-
-        return watch
-
-    from dataclasses import replace
-
-    return tuple(replace(rule, watch=watching(rule)) for rule in rules)
+    def finish(self, end: float) -> None:
+        """Let the rule come to its end."""
+        self._watcher.finish(end)
 
 
 def main() -> None:
@@ -142,9 +109,11 @@ def main() -> None:
     options = parser.parse_args()
     frames = int(options.frames * 1e6)
     print(f"Python {sys.version.split()[0]}, numpy {np.__version__}, rules: {len(RULES)}")
-    for name, layout in _PACKS.items():
-        once = block_of(record(layout, _RUN))
-        print(f"\na pack of {name}: {frames:,} frames, {len(once) / _RUN:,.0f} a second on the bus")
+    for cscs in _PACKS:
+        once = block_of(recorded(_PLAN, seconds=_RUN, cscs=cscs))
+        print(
+            f"\na pack of {cscs} x 12 cells: {frames:,} frames, {len(once) / _RUN:,.0f} a second on the bus"
+        )
         decoder = Decoder(protocol_of().messages, mode=Mode.RAW)
         decoding = judging = 0.0
         judge = Judge()
@@ -168,7 +137,8 @@ def main() -> None:
 
 def _each_rule(once: FrameBlock, frames: int) -> None:
     spent: dict[str, float] = defaultdict(float)
-    judge = Judge(rules=timed(RULES, spent))
+    rules = [replace(rule, watch=partial(_Timed, rule, spent)) for rule in RULES]
+    judge = Judge(rules=rules)
     for block in repeated(once, frames):
         judge.take(block)
     print(f"  ns a frame    {'total':<28}{sum(spent.values()) / frames * 1e9:8.1f}")

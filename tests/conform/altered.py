@@ -126,7 +126,7 @@ def byte(name: str, at: float, place: int, flip: int) -> Alteration:
     def turn(frame: can.Message) -> list[can.Message]:
         data = bytearray(frame.data)
         data[place] ^= flip
-        return [with_data(frame, data)]
+        return [with_data(frame, bytes(data))]
 
     return changed(name, at, turn)
 
