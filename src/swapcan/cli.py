@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 import can
 
-from swapcan.commands import convert, decode, demo, listen, monitor, plot, send, simulate
+from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
 from swapcan.console import CommandError, Parser, finish, note, say
 from swapcan.errors import SwapcanError, one_line
 
@@ -20,6 +20,7 @@ _COMMANDS = (
     decode.COMMAND,
     convert.COMMAND,
     plot.COMMAND,
+    conform.COMMAND,
     send.COMMAND,
     listen.COMMAND,
     monitor.COMMAND,
@@ -31,6 +32,7 @@ _EXAMPLES = """examples:
   swapcan decode drive.blf                            the messages in a log
   swapcan convert drive.blf -o drive.parquet          hours of a log as columns
   swapcan plot drive.blf --signals SOC -o soc.html    signals and cells over time
+  swapcan conform drive.blf                           does it keep to the standard?
   swapcan listen -i socketcan -c can0                 the messages on a bus
   swapcan monitor -i socketcan -c can0                the same, as a view
   swapcan send B2V_ST2 soc=80 -i socketcan -c can0    one message onto a bus

@@ -111,9 +111,8 @@ def main() -> None:
     print(f"Python {sys.version.split()[0]}, numpy {np.__version__}, rules: {len(RULES)}")
     for cscs in _PACKS:
         once = block_of(recorded(_PLAN, seconds=_RUN, cscs=cscs))
-        print(
-            f"\na pack of {cscs} x 12 cells: {frames:,} frames, {len(once) / _RUN:,.0f} a second on the bus"
-        )
+        rate = len(once) / _RUN
+        print(f"\na pack of {cscs} x 12 cells: {frames:,} frames, {rate:,.0f} a second on the bus")
         decoder = Decoder(protocol_of().messages, mode=Mode.RAW)
         decoding = judging = 0.0
         judge = Judge()

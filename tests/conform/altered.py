@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from copy import copy
 from functools import cache, reduce
 from operator import xor
@@ -44,10 +44,17 @@ def with_data(frame: can.Message, data: bytes) -> can.Message:
     return other
 
 
-def signals(name: str, begin: float, end: float | None = None, **raw: int) -> Alteration:
+def signals(
+    name: str,
+    begin: float,
+    end: float | None = None,
+    *,
+    only: Mapping[str, int] | None = None,
+    **raw: int,
+) -> Alteration:
     """Raw values of signals, in all frames of a message from begin to end or in the first only.
 
-    The checksum is made right.
+    ``only`` names raw values that a frame must have. The checksum is made right.
     """
     message = _message(name)
 
@@ -59,6 +66,9 @@ def signals(name: str, begin: float, end: float | None = None, **raw: int) -> Al
                 values = message.decode(bytes(frame.data), decode_choices=False, scaling=False)
                 assert isinstance(values, dict)
                 assert raw.keys() <= values.keys()
+                if only and not only.items() <= values.items():
+                    result.append(frame)
+                    continue
                 data = message.encode(values | raw, scaling=False, strict=False)
                 result.append(with_data(frame, _sealed(name, data)))
                 done = True
@@ -131,16 +141,82 @@ def byte(name: str, at: float, place: int, flip: int) -> Alteration:
     return changed(name, at, turn)
 
 
-def added(name: str, at: float, **attributes: object) -> Alteration:
-    """A copy of one frame beside it, with other attributes of `can.Message`."""
+def added(name: str, at: float, *, later: float = 0.0, **attributes: object) -> Alteration:
+    """A copy of one frame beside it or later, with other attributes of `can.Message`."""
 
     def double(frame: can.Message) -> list[can.Message]:
         other = copy(frame)
+        other.timestamp += later
         for attribute, value in attributes.items():
             setattr(other, attribute, value)
         return [frame, other]
 
     return changed(name, at, double)
+
+
+def again(name: str, at: float, *, times: int, every: float) -> Alteration:
+    """One frame so many times more, so many seconds from one to the next."""
+
+    def repeat(frame: can.Message) -> list[can.Message]:
+        copies = [copy(frame) for _ in range(times + 1)]
+        for number, other in enumerate(copies):
+            other.timestamp += number * every
+        return copies
+
+    return changed(name, at, repeat)
+
+
+def paced(name: str, factor: float, *, uneven: float = 0.0) -> Alteration:
+    """A message slower by a factor, and every other frame so many seconds later."""
+    number = _message(name).frame_id
+
+    def alter(frames: Frames) -> Frames:
+        end = frames[-1].timestamp
+        result, count, first = [], 0, 0.0
+        for frame in frames:
+            if frame.arbitration_id != number:
+                result.append(frame)
+                continue
+            first = first if count else frame.timestamp
+            other = copy(frame)
+            other.timestamp = first + (frame.timestamp - first) * factor + uneven * (count % 2)
+            count += 1
+            if other.timestamp <= end:
+                result.append(other)
+        return tuple(sorted(result, key=lambda frame: frame.timestamp))
+
+    return alter
+
+
+def doubled(name: str, later: float) -> Alteration:
+    """A copy of each frame of a message, so many seconds after it."""
+    number = _message(name).frame_id
+
+    def alter(frames: Frames) -> Frames:
+        copies = [copy(frame) for frame in frames if frame.arbitration_id == number]
+        for other in copies:
+            other.timestamp += later
+        return tuple(sorted([*frames, *copies], key=lambda frame: frame.timestamp))
+
+    return alter
+
+
+def swapped(name: str, at: float) -> Alteration:
+    """The payloads of two successive frames of a message exchanged."""
+    number = _message(name).frame_id
+
+    def alter(frames: Frames) -> Frames:
+        one, two, *_ = (
+            place
+            for place, frame in enumerate(frames)
+            if frame.arbitration_id == number and frame.timestamp >= at
+        )
+        result = list(frames)
+        result[one] = with_data(frames[one], bytes(frames[two].data))
+        result[two] = with_data(frames[two], bytes(frames[one].data))
+        return tuple(result)
+
+    return alter
 
 
 def both(*alterations: Alteration) -> Alteration:

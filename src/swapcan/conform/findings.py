@@ -103,7 +103,10 @@ class Findings:
         return self._limits.get(tolerance.name, tolerance.value)
 
     def examine(self, node: str, count: int = 1) -> None:
-        """Say that so many things of a node were judged, right or wrong."""
+        """Say that so many things of a node were judged, right or wrong.
+
+        A negative count takes back what `rows` counted, where it could not be judged after all.
+        """
         if count and node in self.nodes:
             self.examined[node] += count
 
@@ -180,8 +183,7 @@ class Findings:
         """Count an occurrence; where it is kept, -1 for nowhere."""
         self.count += 1
         self.frames += found.frames
-        if self.worst is None or found.measure > self.worst.measure:
-            self.worst = found
+        self.worst = found if self.worst is None else _worse(self.worst, found)
         if len(self.kept) >= KEPT:
             return -1
         self.kept.append(found)
@@ -203,5 +205,9 @@ class Findings:
             values=found.values if worse else begun.values,
         )
         self.kept[place] = joined
-        if self.worst is begun or (self.worst and joined.measure > self.worst.measure):
-            self.worst = joined
+        self.worst = joined if self.worst in (None, begun) else _worse(self.worst, joined)
+
+
+def _worse(one: Occurrence, other: Occurrence) -> Occurrence:
+    """The worse of two; of two alike the earlier, wherever a log is cut."""
+    return max(one, other, key=lambda found: (found.measure, -found.order))

@@ -65,7 +65,7 @@ class Judge:
     ) -> None:
         self.nodes = tuple(nodes)
         self._limits = dict(limits or {})
-        _check(self.nodes, self._limits)
+        _check(self.nodes, self._limits, rules)
         judged = frozenset(self.nodes)
         self._findings = [(rule, Findings(judged, self._limits)) for rule in rules]
         self._watchers = [
@@ -196,13 +196,13 @@ def _result(rule: Rule, findings: Findings) -> RuleResult:
     )
 
 
-def _check(nodes: Sequence[str], limits: Mapping[str, float]) -> None:
+def _check(nodes: Sequence[str], limits: Mapping[str, float], rules: Sequence[Rule]) -> None:
     if not nodes:
         raise ConformError(f"judge whom? nodes are {', '.join(PROTOCOL.nodes)}")
     for node in nodes:
         if node not in PROTOCOL.nodes:
             raise ConformError(f"there is no node {node!r}; known: {', '.join(PROTOCOL.nodes)}")
-    known = {tolerance.name for rule in RULES for tolerance in rule.tolerances}
+    known = {tolerance.name for rule in (*RULES, *rules) for tolerance in rule.tolerances}
     for name in limits:
         if name not in known:
             raise ConformError(f"there is no tolerance {name!r}; known: {', '.join(sorted(known))}")

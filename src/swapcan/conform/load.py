@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from swapcan.conform.chunk import Chunk
+from swapcan.conform.frame_bits import Bits, frame_bits
+from swapcan.conform.traffic import Channel, Traffic
+from swapcan.logs.frames import FrameFlag
 
 BIT_RATE = 250_000
 """Bit/s, 4.2.2."""
 
-_HEAD, _EXTENDED_HEAD, _TAIL = 34, 54, 13
-"""Bits of a frame apart from its payload: those that are stuffed, and those behind."""
+_LENGTHS = 256
+"""More than any number of bytes that a block can hold."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,13 +25,15 @@ class Load:
     Parameters
     ----------
     channel
-        As python-can gives it.
+        As python-can gives it; empty where the log has no channels.
     measured, measured_stuffed
-        By all frames on it, without stuff bits and with the most there can be.
+        By all frames on it, without stuff bits and with the most there can be. Error frames are
+        not counted, CAN FD frames as classical ones of their length.
     own, own_stuffed
         The part of it that messages of the protocol have.
     expected, expected_stuffed
-        What the messages seen on it make at their printed periods, for the pack's numbers.
+        What the messages seen on it make at their printed periods, for the pack's numbers;
+        without those that are sent on events or on request.
     """
 
     channel: str
@@ -41,9 +48,49 @@ class Load:
 class LoadMeter:
     """Counts the bits of one log."""
 
+    def __init__(self) -> None:
+        self._traffic = Traffic()
+        self._bits: dict[Channel, Bits] = {}
+
     def take(self, chunk: Chunk) -> None:
         """Count the next frames."""
+        self._traffic.take(chunk)
+        block = chunk.block
+        # One number per kind of frame, so that a single count tells all of them apart.
+        kinds = block.channel.astype(np.intp)
+        kinds *= 4 * _LENGTHS
+        kinds += (block.flags & np.uint8(FrameFlag.EXTENDED | FrameFlag.REMOTE)) * np.intp(_LENGTHS)
+        kinds += block.length
+        counts = np.bincount(kinds[(block.flags & np.uint8(FrameFlag.ERROR)) == 0])
+        for kind in np.flatnonzero(counts).tolist():
+            place, rest = divmod(kind, 4 * _LENGTHS)
+            flags, length = divmod(rest, _LENGTHS)
+            bits = frame_bits(
+                0 if flags & FrameFlag.REMOTE else length, extended=bool(flags & FrameFlag.EXTENDED)
+            )
+            channel = block.channels[place]
+            self._bits[channel] = self._bits.get(channel, Bits()).plus(bits, int(counts[kind]))
 
     def finish(self, end: float) -> tuple[Load, ...]:
-        """The load of each channel, in the order in which they came."""
-        return ()
+        """The load of each channel, in the order in which they came; none of a log of no length."""
+        return tuple(self._load(channel, end) for channel in self._bits) if end > 0 else ()
+
+    def _load(self, channel: Channel, seconds: float) -> Load:
+        own = expected = Bits()
+        for message, home in self._traffic.channels.items():
+            if home == channel:
+                bits = frame_bits(message.LENGTH, extended=True)
+                own = own.plus(bits, self._traffic.frames[message])
+        for message in self._traffic.always(channel):
+            bits = frame_bits(message.LENGTH, extended=True)
+            expected = expected.plus(bits, self._traffic.rate(message))
+        measured = self._bits[channel]
+        return Load(
+            channel="" if channel is None else str(channel),
+            measured=measured.bare / seconds / BIT_RATE,
+            measured_stuffed=measured.stuffed / seconds / BIT_RATE,
+            own=own.bare / seconds / BIT_RATE,
+            own_stuffed=own.stuffed / seconds / BIT_RATE,
+            expected=expected.bare / BIT_RATE,
+            expected_stuffed=expected.stuffed / BIT_RATE,
+        )

@@ -75,7 +75,7 @@ class Series:
         if key not in self._cache:
             part = self.message.FIELDS[field]
             raw = self.raw(field)
-            values = raw * part.factor + part.offset
+            values = (raw * part.factor + part.offset).astype(np.float64)
             for code in part.states:
                 values[raw == code] = np.nan
             self._cache[key] = values

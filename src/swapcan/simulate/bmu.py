@@ -202,9 +202,9 @@ class Bmu(Participant):
         command = self._command if now - self._command_at <= _FRESH else None
         charger = self._heard(self.charger_node, C2B_ACStatus)
         unit = self._heard(self.node, TMS_BMS_0)
-        load = charge = None
+        load = charge = plugged = None
         if self.line:
-            load, charge = self.line.load, self.line.charge
+            load, charge, plugged = self.line.load, self.line.charge, self.line.plugged
         if charge is None:
             charge = _number(charger, "current_output")
         return Surroundings(
@@ -215,6 +215,7 @@ class Bmu(Participant):
             load=load,
             charger=charger if isinstance(charger, C2B_ACStatus) else None,
             charge=charge,
+            plugged=charger is not None if plugged is None else plugged,
             may_charge=self.may_charge,
             coolant=_coolant(unit),
             cooling_failed=self._cooling_failed(unit),

@@ -55,6 +55,7 @@ class Charging:
         self.path = path
         self.status = ChargeStatus()
         self._full = False
+        self._heard = False  # since the plug is in
 
     def step(
         self,
@@ -62,6 +63,7 @@ class Charging:
         charger: C2B_ACStatus | None,
         measurement: Measurement,
         *,
+        plugged: bool,
         allowed: bool,
         forbidden: bool,
         current: float,
@@ -74,6 +76,8 @@ class Charging:
             The time, and what the battery is like.
         charger
             What the charger said last; None where it is not there, or silent.
+        plugged
+            Whether its plug is in.
         allowed
             Whether charging is wanted at all.
         forbidden
@@ -83,7 +87,11 @@ class Charging:
         """
         limit = _FULL if not self._full else _AGAIN
         self._full = charger is not None and measurement.soc >= limit
-        self.status = self._decide(charger, measurement, allowed=allowed, forbidden=forbidden)
+        self._heard = charger is not None or (self._heard and plugged)
+        if charger is None:
+            self.status = self._unheard(plugged=plugged)
+        else:
+            self.status = self._decide(charger, measurement, allowed=allowed, forbidden=forbidden)
         matched = charger is not None and _is_matched(charger, measurement.voltage)
         wanted = (
             self.status.control is ChargeControl.START_TO_CHARGE
@@ -92,16 +100,24 @@ class Charging:
         )
         self.path.step(now, wanted=wanted, matched=matched, current=current)
 
+    def _unheard(self, *, plugged: bool) -> ChargeStatus:
+        """Without a charger that speaks: one that did has failed, where its plug is still in."""
+        if plugged and self._heard:
+            return ChargeStatus(
+                connected=True,
+                state=ChargeState.CHARGE_ERROR,
+                control=ChargeControl.FAULT_STOP_TO_CHARGE,
+            )
+        return ChargeStatus(connected=plugged)
+
     def _decide(
         self,
-        charger: C2B_ACStatus | None,
+        charger: C2B_ACStatus,
         measurement: Measurement,
         *,
         allowed: bool,
         forbidden: bool,
     ) -> ChargeStatus:
-        if charger is None:
-            return ChargeStatus()
         if forbidden or self.path.failed or _is_faulty(charger):
             return ChargeStatus(
                 connected=True,

@@ -125,6 +125,7 @@ class Chg(Participant):
         self.voltage = min(voltage, self.voltage + _VOLTAGE_RAMP * passed)
         if self.line:
             self.line.charge = self.current
+            self.line.plugged = self.connected
 
     def _goal(self) -> tuple[float, float]:
         """The current and the voltage to come to."""

@@ -17,7 +17,11 @@ class Line:
     charge
         What the charger gives, in A, never negative. None where no charger is on this line, so
         that the pack has to take what the charger says it gives.
+    plugged
+        Whether the charger's plug is in the truck. None where no charger is on this line, so that
+        the pack has to take a charger that it hears for one that is plugged in.
     """
 
     load: float | None = None
     charge: float | None = None
+    plugged: bool | None = None

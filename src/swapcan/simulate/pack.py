@@ -44,6 +44,8 @@ class Surroundings:
         What the truck draws, in A, None where nobody knows.
     charger, charge
         What the charger said last, None where it is silent; what it gives, in A.
+    plugged
+        Whether its plug is in.
     may_charge
         Whether charging is wanted, if the truck stands.
     coolant
@@ -61,6 +63,7 @@ class Surroundings:
     load: float | None = None
     charger: C2B_ACStatus | None = None
     charge: float = 0.0
+    plugged: bool = False
     may_charge: bool = True
     coolant: float | None = None
     cooling_failed: bool = False
@@ -117,6 +120,7 @@ class Pack:
             now,
             around.charger,
             self._measured,
+            plugged=around.plugged,
             allowed=around.may_charge and around.speed == 0,
             forbidden=self._faults.forbid_charging,
             current=charge,
@@ -177,7 +181,7 @@ class Pack:
 
     def _look(self, around: Surroundings) -> None:
         """Take a new status from the measurement and all else that there is now."""
-        if around.charger and not self.status.charge.connected:
+        if (around.charger or around.plugged) and not self.status.charge.connected:
             self._charged_before = self.battery.charged
         self._thermal = next_mode(
             self._thermal,

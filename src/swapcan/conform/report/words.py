@@ -42,22 +42,28 @@ SEVERITIES: Mapping[Severity, Text] = {
     Severity.INFO: Text("note", "提示"),
 }
 
-EXITS: Mapping[Verdict, Text] = {
-    Verdict.CONFORMS: Text("Exit status 0: every log conforms.", "退出码 0：所有日志均符合标准。"),
-    Verdict.VIOLATES: Text(
-        "Exit status 1: a log does not conform.", "退出码 1：有日志不符合标准。"
-    ),
-    Verdict.NOT_JUDGED: Text(
-        "Exit status 2: a log could not be judged.", "退出码 2：有日志无法判定。"
+STATUS_OF: Mapping[Verdict, int] = {
+    Verdict.CONFORMS: 0,
+    Verdict.VIOLATES: 1,
+    Verdict.NOT_JUDGED: 2,
+}
+"""The exit statuses of verdicts."""
+
+EXITS: Mapping[int, Text] = {
+    0: Text("Exit status 0: every log conforms.", "退出码 0：所有日志均符合标准。"),
+    1: Text("Exit status 1: a log does not conform.", "退出码 1：有日志不符合标准。"),
+    2: Text(
+        "Exit status 2: a log could not be judged, or not all of it.",
+        "退出码 2：有日志无法判定，或未能完整判定。",
     ),
 }
 
 TITLE = Text("Conformance report", "符合性报告")
 COLON = Text(": ", "：")
+SEMICOLON = Text("; ", "；")
 COMMA = Text(", ", "、")
 NONE = Text("none", "无")
 
-LOG = Text("Log", "日志")
 DIGEST = Text("SHA-256", "SHA-256")
 BEGIN = Text("Begin", "起始时间")
 NO_DATE = Text("not known: times count from the log's begin", "未知：时间从日志起点算起")
@@ -78,33 +84,26 @@ NOT_JUDGED = Text("Not judged", "未判定")
 NOTHING_TO_JUDGE = Text(
     "Nothing in the log that these rules could examine.", "日志中没有这些规则可检查的内容。"
 )
-NOTHING_FOUND = Text("Nothing was found.", "未发现问题。")
 
 RULE = Text("Rule", "规则")
 RULES = Text("Rules", "规则")
-CLAUSE = Text("Clause", "条款")
 SEVERITY = Text("Severity", "级别")
 NODE = Text("Node", "节点")
 NODES = Text("Nodes", "节点")
 EXAMINED = Text("Examined", "检查数")
 COUNT = Text("Found", "发现数")
 STATUS = Text("Status", "结果")
-MESSAGE = Text("Message", "报文")
-SIGNAL = Text("Signal", "信号")
 
 FIRST = Text("First", "首次")
 WORST = Text("Worst", "最严重")
 START = Text("Start", "开始")
 END = Text("End", "结束")
-ORDER = Text("Frame", "帧序号")
+ORDER = Text("First frame", "首帧序号")
 SUBJECT = Text("Subject", "对象")
 WHAT = Text("What", "内容")
 OCCURRENCES = Text("Occurrences", "发生记录")
 FOUND = Text("found: {count}, frames: {frames}", "发现 {count} 次，共 {frames} 帧")
 MORE = Text("and {count} more; see the CSV or JSON report", "另有 {count} 条，见 CSV 或 JSON 报告")
-NOT_KEPT = Text(
-    "and {count} more that are counted only", "另有 {count} 条仅计数，未逐条保留"
-)
 
 TOLERANCES = Text("Tolerances", "容差")
 TOLERANCE = Text("Tolerance", "容差")
@@ -115,9 +114,9 @@ MEANING = Text("What is allowed", "含义")
 
 PERIODS = Text("Periods", "周期")
 PERIODS_HELP = Text(
-    "The band spans the shortest and the longest step between frames; the line is the printed "
-    "period, shaded where a tolerance is in force. A mark at the top: longer than is drawn.",
-    "色带表示相邻帧间隔的最小值到最大值；横线为标准规定的周期，阴影为生效的容差范围。顶部标记：间隔超出绘图范围。",
+    "The band spans the shortest and the longest step between frames, the dashed line is the "
+    "printed period, the shade what is allowed. A mark at the top: longer than is drawn.",
+    "色带为相邻帧间隔的最小值至最大值，虚线为标准规定的周期，阴影为允许范围。顶部标记：间隔超出绘图范围。",
 )
 PERIOD = Text("printed {period}", "标准周期 {period}")
 MEAN = Text("mean {mean} ± {deviation}", "平均 {mean} ± {deviation}")
@@ -129,11 +128,10 @@ LOAD_HELP = Text(
     "占 250 kbit/s 位速率的比例：不含填充位，以及含最多填充位。",
 )
 CHANNEL = Text("Channel", "通道")
+NO_CHANNEL = Text("(unnamed)", "(未命名)")
 MEASURED = Text("measured", "实测")
 OWN = Text("of the protocol", "其中本协议")
 EXPECTED = Text("expected", "预期")
-UNSTUFFED = Text("without stuff bits", "不含填充位")
-STUFFED = Text("with stuff bits", "含填充位")
 LOAD_LINE = Text(
     "Bus load on {channel}: {measured} measured, {expected} expected; "
     "with all stuff bits {measured_stuffed}, {expected_stuffed}",
@@ -147,4 +145,7 @@ NO_FRAMES = Text("No frame in this span.", "此时段内无帧。")
 SECONDS = Text("seconds since the log's begin", "自日志起点的秒数")
 
 ENVIRONMENT = Text("Environment", "运行环境")
+NAMES: Mapping[str, Text] = {"System": Text("System", "操作系统")}
+"""What the environment is made of, but for proper names."""
+
 OVERVIEW = Text("Logs", "日志一览")

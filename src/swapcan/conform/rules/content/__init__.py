@@ -3,5 +3,16 @@
 from __future__ import annotations
 
 from swapcan.conform.rule import Rule
+from swapcan.conform.rules.content import (
+    code_defined,
+    code_reserved,
+    invalid_lasting,
+    value_range,
+)
 
-RULES: tuple[Rule, ...] = ()
+RULES: tuple[Rule, ...] = (
+    code_defined.RULE,
+    value_range.RULE,
+    code_reserved.RULE,
+    invalid_lasting.RULE,
+)

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from swapcan.conform.rule import Rule
-from swapcan.conform.rules.protection import checksum
+from swapcan.conform.rules.protection import checksum, counter_allowed, counter_sequence
 
-RULES: tuple[Rule, ...] = (checksum.RULE,)
+RULES: tuple[Rule, ...] = (checksum.RULE, counter_sequence.RULE, counter_allowed.RULE)

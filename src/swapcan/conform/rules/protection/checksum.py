@@ -29,8 +29,10 @@ class Checksum(Watcher):
     def take(self, chunk: Chunk) -> None:
         """Judge all frames of messages that have a checksum."""
         for message in _PROTECTED:
-            series = chunk.frames(message)
-            wrong = ~np.isin(series.order, chunk.sound(message).order)
+            series, sound = chunk.frames(message), chunk.sound(message)
+            wrong = np.zeros(len(series), np.bool_)
+            if series.fresh != sound.fresh:
+                wrong = ~np.isin(series.order, sound.order)
             subject = Subject(message.SENDER, message.NAME)
             self.findings.rows(subject, series, wrong, partial(_describe, series))
 

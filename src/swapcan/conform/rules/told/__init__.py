@@ -3,5 +3,22 @@
 from __future__ import annotations
 
 from swapcan.conform.rule import Rule
+from swapcan.conform.rules.told import (
+    alarm_raised,
+    charger_fault_told,
+    connector_warning_told,
+    cooling_fault_told,
+    hv_off_asked,
+    hv_on_failed,
+    lock_while_voltage,
+)
 
-RULES: tuple[Rule, ...] = ()
+RULES: tuple[Rule, ...] = (
+    lock_while_voltage.RULE,
+    alarm_raised.RULE,
+    hv_on_failed.RULE,
+    hv_off_asked.RULE,
+    charger_fault_told.RULE,
+    cooling_fault_told.RULE,
+    connector_warning_told.RULE,
+)

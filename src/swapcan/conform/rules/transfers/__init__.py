@@ -3,5 +3,34 @@
 from __future__ import annotations
 
 from swapcan.conform.rule import Rule
+from swapcan.conform.rules.transfers import (
+    cells_complete,
+    cells_order,
+    frame_numbers,
+    pack_code_characters,
+    pack_code_constant,
+    pack_code_length,
+    pack_code_transfer,
+    probes_complete,
+    probes_order,
+    vin_characters,
+    vin_check_digit,
+    vin_letters,
+    vin_transfer,
+)
 
-RULES: tuple[Rule, ...] = ()
+RULES: tuple[Rule, ...] = (
+    vin_transfer.RULE,
+    vin_characters.RULE,
+    vin_letters.RULE,
+    vin_check_digit.RULE,
+    pack_code_transfer.RULE,
+    pack_code_characters.RULE,
+    pack_code_length.RULE,
+    pack_code_constant.RULE,
+    cells_complete.RULE,
+    cells_order.RULE,
+    probes_complete.RULE,
+    probes_order.RULE,
+    frame_numbers.RULE,
+)

@@ -1,0 +1,220 @@
+"""Judging what is on a bus: it is recorded, heard or driven, and the record is judged."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import can
+
+from swapcan.commands.bus_options import bus_name, open_bus
+from swapcan.commands.conform_choice import Choice
+from swapcan.commands.conform_reports import Judged
+from swapcan.conform.live.announcement import announcement
+from swapcan.conform.live.interrupts import Interrupts
+from swapcan.conform.live.listening import listen
+from swapcan.conform.live.scenario import Scenario
+from swapcan.conform.live.scenarios import scenarios_of
+from swapcan.conform.live.stage import LEAVING, Left, Stage
+from swapcan.console import CommandError, note
+from swapcan.monitor.recording import Recording
+
+_DURATION = 60.0
+"""Seconds to listen where nothing else is said."""
+
+_REDRAW = 0.2
+"""Seconds between two looks of the line that says how far it is."""
+
+
+def judged_on_bus(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> list[Judged]:
+    """Record a bus and judge the record; nothing where scenarios were announced only.
+
+    Parameters
+    ----------
+    stack
+        Where it ends, records that are not to be kept are gone.
+    """
+    if not given.active:
+        choice.check()
+        return [_heard(given, choice, stack)]
+    scenarios = [(each, each.played(given.play)) for each in scenarios_of(given.active)]
+    for scenario, nodes in scenarios:
+        choice.check(scenario.rules)
+        for node in set(nodes) & set(choice.nodes):
+            raise CommandError(f"{scenario.name} plays {node}: it cannot be judged beside that")
+    for scenario, nodes in scenarios:
+        for line in announcement(scenario, nodes):
+            note(line)
+    if not given.yes_drive_the_bus:
+        note("nothing was sent; --yes-drive-the-bus sends it")
+        return []
+    return _driven(given, choice, scenarios, stack)
+
+
+def _heard(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> Judged:
+    path = given.record or _folder(stack) / "heard.log"
+    seconds = given.duration or _DURATION
+    with open_bus(given) as bus, Interrupts() as interrupts:
+        name = _record_name(given, bus)
+        with _recorded(path) as recording:
+            note(f"listening on {name} for {seconds:g} s, Ctrl-C ends it early")
+            progress = _Progress(recording)
+            try:
+                listen(
+                    bus,
+                    seconds,
+                    _noting(recording, given.channel),
+                    is_over=lambda: interrupts.is_over,
+                    watch=progress.update,
+                )
+            finally:
+                progress.clear()
+    interrupts.go_on()
+    return _judged(given, choice, path, name)
+
+
+def _driven(
+    given: argparse.Namespace,
+    choice: Choice,
+    scenarios: list[tuple[Scenario, tuple[str, ...]]],
+    stack: ExitStack,
+) -> list[Judged]:
+    paths = [_record_of(given, scenario, len(scenarios), stack) for scenario, _ in scenarios]
+    for path in paths:
+        if path.exists():  # better now than after the first of them
+            raise CommandError(f"{path}: is there already, choose another name")
+    played = 0
+    with open_bus(given) as bus, Interrupts() as interrupts:
+        name = _record_name(given, bus)
+        for (scenario, nodes), path in zip(scenarios, paths, strict=True):
+            if interrupts.is_over:
+                break
+            note(f"playing {scenario.name} on {name}, Ctrl-C switches off and ends")
+            with _recorded(path) as recording:
+                _play(bus, interrupts, scenario, nodes, recording, given.channel)
+            played += 1
+    interrupts.go_on()
+    judged = [
+        _judged(given, choice, path, name, scenario)
+        for (scenario, _), path in zip(scenarios[:played], paths, strict=False)
+    ]
+    if interrupts.is_over and judged:
+        left = ", ".join(scenario.name for scenario, _ in scenarios[played:])
+        cut = f"it was ended early; not played: {left}" if left else "it was ended early"
+        judged[-1] = replace(judged[-1], cut=cut)
+    return judged
+
+
+def _play(
+    bus: can.BusABC,
+    interrupts: Interrupts,
+    scenario: Scenario,
+    nodes: tuple[str, ...],
+    recording: Recording,
+    channel: str | None,
+) -> None:
+    progress = _Progress(recording)
+    stage = Stage(bus, is_over=lambda: interrupts.is_over, watch=progress.update)
+    try:
+        stage.play(scenario, nodes, _noting(recording, channel))
+    finally:
+        progress.clear()
+        if stage.left is Left.UNKNOWN:
+            note(
+                f"{scenario.name}: {stage.left.value} within {LEAVING:g} s:"
+                " TAKE IT FOR LIVE, switch it off by other means"
+            )
+        elif stage.left is Left.SAFE:
+            note(f"{scenario.name}: {stage.left.value}")
+
+
+def _judged(
+    given: argparse.Namespace,
+    choice: Choice,
+    path: Path,
+    name: str,
+    scenario: Scenario | None = None,
+) -> Judged:
+    rules = scenario.rules if scenario else ()
+    judgement = choice.judge(path, rules)
+    if given.record is None:
+        log = f"{name}: {scenario.name}" if scenario else name
+        judgement = replace(judgement, log=log)
+    return Judged(judgement, path, tuple(rule.id for rule in rules))
+
+
+def _record_of(given: argparse.Namespace, scenario: Scenario, count: int, stack: ExitStack) -> Path:
+    record: Path | None = given.record
+    if record is None:
+        return _folder(stack) / f"{scenario.name}.log"
+    return record if count == 1 else record.with_stem(f"{record.stem}-{scenario.name}")
+
+
+def _folder(stack: ExitStack) -> Path:
+    return Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="swapcan-")))
+
+
+def _record_name(given: argparse.Namespace, bus: can.BusABC) -> str:
+    """Interface and channel, as far as they are known."""
+    named = " ".join(filter(None, (given.interface, given.channel)))
+    return named or bus_name(bus, given)
+
+
+def _noting(recording: Recording, channel: str | None) -> Callable[[can.Message], None]:
+    """What writes a frame, with the channel's name where the interface gives it none."""
+    # In a log of candump a name ends at the first space.
+    name = channel if channel and not re.search(r"\s", channel) else None
+
+    def note_frame(frame: can.Message) -> None:
+        if frame.channel is None:
+            frame.channel = name
+        recording.write(frame)
+
+    return note_frame
+
+
+@contextmanager
+def _recorded(path: Path) -> Iterator[Recording]:
+    """A record that is closed in the end, and kept whatever happens."""
+    recording = Recording(path)
+    try:
+        yield recording
+    finally:
+        recording.close()
+
+
+class _Progress:
+    """A line with the time left and the frames so far, on a terminal only."""
+
+    def __init__(self, recording: Recording) -> None:
+        self._recording = recording
+        self._shown = bool(sys.stderr) and sys.stderr.isatty()
+        self._next = 0.0
+        self._drawn = 0
+
+    def update(self, passed: float, seconds: float) -> None:
+        """So many seconds have passed, of how many."""
+        now = time.monotonic()
+        if self._shown and now >= self._next:
+            self._next = now + _REDRAW
+            left = max(0.0, seconds - passed)
+            self._draw(f"{left:.0f} s left, frames: {self._recording.frames:,}")
+
+    def clear(self) -> None:
+        """Take the line away."""
+        if self._drawn:
+            self._draw("")
+            self._draw("")
+            self._drawn = 0
+
+    def _draw(self, text: str) -> None:
+        sys.stderr.write("\r" + text.ljust(self._drawn))
+        sys.stderr.flush()
+        self._drawn = len(text)

@@ -1,0 +1,1 @@
+"""Conformance on a live bus: listening to it, and driving a pack through scenarios."""

@@ -1,0 +1,55 @@
+"""Identifiers of the protocol come as classical data frames."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Said
+from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.rules.frames.left_over import left_over
+from swapcan.conform.rules.frames.odd import judge_odd
+from swapcan.conform.text import Text
+from swapcan.logs.frames import FrameBlock, FrameFlag
+from swapcan.message import Message
+
+_ODD = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
+
+_REMOTE = Text(
+    "a remote frame; it has to be a classical data frame", "为远程帧,应为经典 CAN 数据帧"
+)
+_FD = Text(
+    "a CAN FD frame; it has to be a classical data frame", "为 CAN FD 帧,应为经典 CAN 数据帧"
+)
+
+
+class FrameKind(Watcher):
+    """Looks at what is left over with an identifier of the protocol."""
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge the next frames."""
+        flags = chunk.block.flags
+        odd = {
+            message: rows[(flags[rows] & _ODD) != 0]
+            for message, rows in left_over(chunk).by_message()
+        }
+        judge_odd(self.findings, chunk, odd, _describe)
+
+
+def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:  # noqa: ARG001
+    return (_REMOTE if block.flags[row] & FrameFlag.REMOTE else _FD), {}
+
+
+RULE = Rule(
+    id="frame-kind",
+    title=Text("Frames are classical data frames", "帧为经典 CAN 数据帧"),
+    purpose=Text(
+        "A remote frame carries no data, and a node without CAN FD destroys FD frames on the bus.",
+        "远程帧不携带数据;不支持 CAN FD 的节点会破坏总线上的 FD 帧。",
+    ),
+    clause="4.2.1, 4.2.2",
+    severity=Severity.MUST,
+    judges=PROTOCOL.nodes,
+    watch=FrameKind,
+)

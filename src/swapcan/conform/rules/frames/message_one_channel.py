@@ -1,0 +1,92 @@
+"""Each message comes on one channel of the log."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.rules.frames.left_over import left_over
+from swapcan.conform.rules.frames.sightings import Sighting
+from swapcan.conform.text import Text
+from swapcan.logs.frames import FrameFlag
+from swapcan.message import Message
+
+_OTHER_KINDS = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
+
+_TWICE = Text(
+    "frames on {channel} that are not judged: {frames}; those on {home} are",
+    "通道 {channel} 上的 {frames} 帧不参与判定,只判定通道 {home} 上的报文",
+)
+
+
+class MessageOneChannel(Watcher):
+    """Counts the frames that are sound but came on another channel than the first."""
+
+    def __init__(self, findings: Findings) -> None:
+        super().__init__(findings)
+        self._homes: dict[type[Message], str] = {}
+        self._others: dict[tuple[type[Message], str], Sighting] = {}
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge the next frames."""
+        block = chunk.block
+        for message in PROTOCOL.messages:
+            own = chunk.frames(message)
+            if not own.fresh:
+                continue
+            self.findings.examine(message.SENDER, own.fresh)
+            if message not in self._homes:
+                row = own.order[own.first] - chunk.first_order
+                self._homes[message] = str(block.channels[block.channel[row]])
+        for message, rows in left_over(chunk).by_message():
+            sound = (block.flags[rows] & _OTHER_KINDS) == 0
+            sound &= block.length[rows] == message.LENGTH
+            if sound.any():
+                self._count(chunk, message, rows[sound])
+
+    def finish(self, end: float) -> None:  # noqa: ARG002
+        """Say which channels there were."""
+        for (message, channel), each in self._others.items():
+            home = self._homes[message]
+            found = Occurrence(
+                subject=Subject(message.SENDER, message.NAME, detail=channel),
+                start=each.start,
+                end=each.end,
+                order=each.order,
+                frames=each.frames,
+                measure=each.frames,
+                text=_TWICE,
+                values={"channel": channel, "frames": each.frames, "home": home},
+            )
+            self.findings.add(found)
+
+    def _count(self, chunk: Chunk, message: type[Message], rows: NDArray[np.int64]) -> None:
+        block = chunk.block
+        channels = block.channel[rows]
+        for number in np.unique(channels).tolist():
+            own = rows[channels == number]
+            times = block.timestamp[own] - chunk.begin
+            start, end, order = float(times[0]), float(times[-1]), int(own[0]) + chunk.first_order
+            key = message, str(block.channels[number])
+            sighting = self._others.setdefault(key, Sighting(message.FRAME_ID, start, end, order))
+            sighting.end = end
+            sighting.frames += len(own)
+
+
+RULE = Rule(
+    id="message-one-channel",
+    title=Text("Each message comes on one channel", "每个报文只在一个通道上"),
+    purpose=Text(
+        "A message that is on several channels of a log, as behind a gateway, is judged on the "
+        "first only.",
+        "报文出现在日志的多个通道上时(例如经网关转发),只判定最先出现的通道。",
+    ),
+    clause="4.2.2",
+    severity=Severity.INFO,
+    judges=PROTOCOL.nodes,
+    watch=MessageOneChannel,
+)

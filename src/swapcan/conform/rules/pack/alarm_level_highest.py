@@ -1,0 +1,88 @@
+"""The highest alarm level is that of the single alarms."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.rules.pack.alarms import Alarms, AlarmStream, alarm_bits
+from swapcan.conform.rules.pack.runs import Runs
+from swapcan.conform.text import Text
+from swapcan.messages import B2V_ST0, B2V_ST1
+
+_HIGHEST = 3
+
+_LOW = Text(
+    "level {level}, but {alarm} is raised: at least {least}",
+    "等级为 {level},但存在 {alarm}:应不低于 {least}",
+)
+_HIGH = Text(
+    "level {level}, but no alarm is above {most}",
+    "等级为 {level},但各项报警等级均不高于 {most}",
+)
+
+
+class AlarmLevelHighest(Watcher):
+    """Compares the level with the alarms of the same frame, and with those of B2V_ST0 around it.
+
+    An alarm of one bit has no level: the highest is at least 1 then, and may be any.
+    """
+
+    def __init__(self, findings: Findings) -> None:
+        super().__init__(findings)
+        self._stream = AlarmStream()
+        signal = B2V_ST1.FIELDS["fault_levl"].dbc_name
+        self._runs = Runs(findings, Subject(B2V_ST1.SENDER, B2V_ST1.NAME, signal))
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge the frames around which all is known."""
+        self._judge(self._stream.take(chunk))
+
+    def finish(self, end: float) -> None:
+        """Judge the rest."""
+        del end
+        if left := self._stream.finish():
+            self._judge(left)
+        self._runs.finish()
+
+    def _judge(self, alarms: Alarms) -> None:
+        own, other = alarm_bits(B2V_ST1), alarm_bits(B2V_ST0)
+        own_highest, own_flag = own.highest(alarms.own), own.has_flag(alarms.own)
+        least = np.maximum(own_highest, other.highest(alarms.all_around))
+        least = np.maximum(least, own_flag | other.has_flag(alarms.all_around))
+        most = np.maximum(own_highest, other.highest(alarms.any_around))
+        most[own_flag | other.has_flag(alarms.any_around) | ~alarms.known] = _HIGHEST
+        wrong = (alarms.level < least) | (alarms.level > most)
+        describe = partial(_describe, alarms, least, most)
+        self._runs.take(alarms.time, alarms.order, wrong, describe)
+
+
+def _describe(alarms: Alarms, least: NDArray[np.int64], most: NDArray[np.int64], row: int) -> Said:
+    level = int(alarms.level[row])
+    if level > most[row]:
+        return _HIGH, {"level": level, "most": int(most[row])}
+    raised = alarm_bits(B2V_ST1).raised(int(alarms.own[row]))
+    raised |= alarm_bits(B2V_ST0).raised(int(alarms.all_around[row]))
+    gravest = max(raised, key=raised.__getitem__)
+    return _LOW, {"level": level, "alarm": gravest, "least": int(least[row])}
+
+
+RULE = Rule(
+    id="alarm-level-highest",
+    title=Text(
+        "The highest alarm level is that of the single alarms", "最高报警等级与各项报警一致"
+    ),
+    purpose=Text(
+        "The VCU cuts power and stops by the highest level.",
+        "VCU 依据最高报警等级降功率或停车。",
+    ),
+    clause="Table 1 row 15 (5.1.1), Table 2 (5.1.2), Table 12 (5.1.11)",
+    severity=Severity.MUST,
+    judges=("BMU",),
+    watch=AlarmLevelHighest,
+)

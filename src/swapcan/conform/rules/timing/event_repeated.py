@@ -1,0 +1,172 @@
+"""Messages that are sent on events are not sent cyclically."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform.asked import REQUESTS
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.text import Text
+from swapcan.conform.tolerance import Tolerance
+from swapcan.message import Message
+
+_EVENTS = tuple(message for message in PROTOCOL.messages if not message.PERIOD)
+
+_NUMBERS = {
+    message: transfer.frame_number.field
+    for transfer in PROTOCOL.transfers
+    for message in transfer.messages
+    if transfer.frame_number and message in _EVENTS
+}
+"""The fields that number the frames of those that come as several."""
+
+_FRAMES = Tolerance(
+    name="event-repeated.frames",
+    value=10,
+    text=Text(
+        "frames in a row with the same payload: a few repetitions make sure that one arrives",
+        "内容相同的连续帧数:少量重发可确保对方收到",
+    ),
+)
+_APART = Tolerance(
+    name="event-repeated.apart",
+    value=1.0,
+    unit="s",
+    text=Text(
+        "from frame to frame, from which on it is another event",
+        "两帧间隔达到该值时视为另一事件",
+    ),
+)
+
+_REPEATED = Text(
+    "the same {count} times in {seconds:.3g} s, though it is to be sent on events only",
+    "{seconds:.3g} s 内重复发送 {count} 次相同内容,而该报文只应由事件触发",
+)
+
+
+@dataclass(slots=True)
+class _Run:
+    """Frames in a row with the same payload; ``last_order`` is where the last is in the log."""
+
+    start: float
+    order: int
+    payload: bytes
+    end: float
+    last_order: int
+    count: int
+
+
+class EventRepeated(Watcher):
+    """Looks for runs of frames with the same payload that nobody asked for."""
+
+    def __init__(self, findings: Findings) -> None:
+        super().__init__(findings)
+        self._runs: dict[tuple[type[Message], int], _Run] = {}
+        self._asked: dict[type[Message], int] = {}  # where in the log it was last asked for
+
+    def take(self, chunk: Chunk) -> None:
+        """Go on with the runs."""
+        for message in _EVENTS:
+            asked = self._requests(chunk, message)
+            series = chunk.frames(message)
+            if not series.fresh:
+                continue
+            self.findings.examine(message.SENDER, series.fresh)
+            keys = np.zeros(series.fresh, np.int64)
+            if message in _NUMBERS:
+                keys = series.raw(_NUMBERS[message])[series.first :]
+            for key in np.unique(keys).tolist():
+                rows = np.flatnonzero(keys == key) + series.first
+                frames = series.payload[rows], series.time[rows], series.order[rows]
+                self._go_on(message, key, *frames, asked)
+
+    def finish(self, end: float) -> None:  # noqa: ARG002
+        """End all runs."""
+        for (message, key), run in self._runs.items():
+            self._judge(message, key, run)
+
+    def _requests(self, chunk: Chunk, message: type[Message]) -> NDArray[np.int64]:
+        """Where in the log it was asked for: the last time before, and in the chunk."""
+        if message not in REQUESTS:
+            return np.empty(0, np.int64)
+        request = REQUESTS[message]
+        series = chunk.sound(request.field.message)
+        own = series.order[series.raw(request.field.field) == request.code]
+        asked = np.concatenate([[self._asked.get(message, -1)], own])
+        self._asked[message] = int(asked[-1])
+        return asked
+
+    def _go_on(
+        self,
+        message: type[Message],
+        key: int,
+        payload: NDArray[np.uint8],
+        time: NDArray[np.float64],
+        order: NDArray[np.int64],
+        asked: NDArray[np.int64],
+    ) -> None:
+        """Take the frames of one number."""
+        run = self._runs.get((message, key))
+        if run:
+            payload = np.concatenate([np.frombuffer(run.payload, np.uint8)[None, :], payload])
+            time, order = np.append(run.end, time), np.append(run.last_order, order)
+        step = np.diff(time)
+        same = (payload[1:] == payload[:-1]).all(axis=1)
+        same &= (step >= 0) & (step < self.findings.limit(_APART))
+        same &= np.diff(np.searchsorted(asked, order)) == 0
+        begins = np.concatenate([[0], np.flatnonzero(~same) + 1])
+        ends = np.concatenate([begins[1:], [len(time)]])
+        counts = ends - begins
+        long = counts > self.findings.limit(_FRAMES)
+        long[[0, -1]] = True
+        for begin, end in zip(begins[long].tolist(), ends[long].tolist(), strict=True):
+            if begin or run is None:
+                run = _Run(
+                    float(time[begin]), int(order[begin]), payload[begin].tobytes(), 0.0, 0, 0
+                )
+                run.count = end - begin
+            else:
+                run.count += end - 1
+            run.end, run.last_order = float(time[end - 1]), int(order[end - 1])
+            if end < len(time):
+                self._judge(message, key, run)
+            self._runs[message, key] = run
+
+    def _judge(self, message: type[Message], key: int, run: _Run) -> None:
+        if run.count <= self.findings.limit(_FRAMES):
+            return
+        self.findings.add(
+            Occurrence(
+                subject=Subject(
+                    message.SENDER, message.NAME, "", f"frame {key}" if message in _NUMBERS else ""
+                ),
+                start=run.start,
+                end=run.end,
+                order=run.order,
+                frames=run.count,
+                measure=run.count,
+                text=_REPEATED,
+                values={"count": run.count, "seconds": run.end - run.start},
+            )
+        )
+
+
+RULE = Rule(
+    id="event-repeated",
+    title=Text("Event messages are not sent cyclically", "事件报文不周期发送"),
+    purpose=Text(
+        "Who is asked without end answers without end, and the bus carries both.",
+        "不断的请求会引起不断的应答,占用总线。",
+    ),
+    clause="A.1",
+    severity=Severity.SHOULD,
+    judges=tuple(dict.fromkeys(message.SENDER for message in _EVENTS)),
+    tolerances=(_FRAMES, _APART),
+    watch=EventRepeated,
+)

@@ -1,0 +1,99 @@
+"""A node sends each periodic message that the standard gives it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.presence import PERIODS, Presence
+from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.steps import StepMeter
+from swapcan.conform.text import Text
+from swapcan.conform.tolerance import Tolerance
+from swapcan.message import Message
+
+_PERIODS = Tolerance(
+    name="message-missing.periods",
+    value=3,
+    text=Text(
+        "periods that a node sends without the message, so that one lost frame is not enough",
+        "节点在线但没有该报文的周期数,避免因丢失一帧而误判",
+    ),
+)
+
+_MISSING = Text(
+    "never comes in {seconds:.3g} s in which {node} sends, every {period:.3g} s is printed",
+    "{node} 发送报文的 {seconds:.3g} s 内从未出现,标准规定周期为 {period:.3g} s",
+)
+
+
+class MessageMissing(Watcher):
+    """Looks for messages that never come.
+
+    A log need not have all buses: a message is judged where a receiver of it sends too, or its
+    sender sends something else to the same receiver.
+    """
+
+    def __init__(self, findings: Findings) -> None:
+        super().__init__(findings)
+        self._meter = StepMeter()
+
+    def take(self, chunk: Chunk) -> None:
+        """Note who sends what."""
+        self._meter.take(chunk)
+
+    def finish(self, end: float) -> None:  # noqa: ARG002
+        """Judge all messages."""
+        for message, period in PERIODS.items():
+            sender = self._meter.nodes.get(message.SENDER)
+            if sender is None:
+                continue
+            if message in self._meter.messages:
+                self.findings.examine(message.SENDER)
+                continue
+            there = max((seen.seconds for seen in self._others(message)), default=0.0)
+            seconds = min(sender.seconds, there)
+            if seconds > self.findings.limit(_PERIODS) * period:
+                self.findings.examine(message.SENDER)
+                self._found(message, period, sender, seconds)
+
+    def _others(self, message: type[Message]) -> Iterable[Presence]:
+        """What shows that the log has the bus on which a message is due."""
+        for node in message.RECEIVERS:
+            if node in self._meter.nodes:
+                yield self._meter.nodes[node]
+        for other, seen in self._meter.messages.items():
+            if other.SENDER == message.SENDER and set(other.RECEIVERS) & set(message.RECEIVERS):
+                yield seen
+
+    def _found(
+        self, message: type[Message], period: float, sender: Presence, seconds: float
+    ) -> None:
+        self.findings.add(
+            Occurrence(
+                subject=Subject(message.SENDER, message.NAME),
+                start=sender.first,
+                end=sender.last,
+                order=sender.first_order,
+                measure=seconds / period,
+                text=_MISSING,
+                values={"seconds": seconds, "node": message.SENDER, "period": period},
+            )
+        )
+
+
+RULE = Rule(
+    id="message-missing",
+    title=Text("All periodic messages are sent", "周期报文齐全"),
+    purpose=Text(
+        "A receiver waits for each message that the standard prints.",
+        "接收方等待标准规定的每个报文。",
+    ),
+    clause="A.1",
+    severity=Severity.MUST,
+    judges=PROTOCOL.nodes,
+    tolerances=(_PERIODS,),
+    watch=MessageMissing,
+)

@@ -1,0 +1,75 @@
+"""Periodic messages come evenly."""
+
+from __future__ import annotations
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform.findings import Said
+from swapcan.conform.moments import Moments, moments_of
+from swapcan.conform.rule import Rule, Severity
+from swapcan.conform.rules.timing.period_gap import gap_limit
+from swapcan.conform.rules.timing.whole_log import WholeLog
+from swapcan.conform.steps import Steps
+from swapcan.conform.text import Text
+from swapcan.conform.tolerance import Tolerance
+
+_SHARE = Tolerance(
+    name="period-jitter.share",
+    value=0.25,
+    text=Text(
+        "of the period: what waiting for a free bus and for a task of the sender may make",
+        "周期的比例:等待总线空闲及发送任务调度可能造成的偏差",
+    ),
+)
+_LEAST = Tolerance(
+    name="period-jitter.steps",
+    value=10,
+    text=Text("steps that make a deviation worth judging", "计算标准差所需的最少间隔数"),
+)
+
+_UNEVEN = Text(
+    "steps deviate by {deviation:.3g} s ({share:.0%} of the period), "
+    "at most {limit:.3g} s are allowed",
+    "间隔的标准差为 {deviation:.3g} s(周期的 {share:.0%}),最多允许 {limit:.3g} s",
+)
+
+
+class PeriodJitter(WholeLog):
+    """Compares the deviation of the steps with the period.
+
+    Lost frames are `period-gap`'s to find: here they would hide how even the others are.
+    """
+
+    @property
+    def least(self) -> float:
+        """Steps that it takes to judge a message."""
+        return self.findings.limit(_LEAST)
+
+    def moments(self, period: float, steps: Steps) -> Moments:
+        """Of the steps that are no gaps."""
+        limit = gap_limit(self.findings, period)
+        if steps.moments.longest <= limit:
+            return steps.moments
+        return moments_of(steps.length[steps.length <= limit])
+
+    def judge(self, period: float, moments: Moments) -> tuple[float, Said | None]:
+        """How large the deviation is, in periods."""
+        share, limit = moments.deviation / period, self.findings.limit(_SHARE)
+        if share <= limit:
+            return share, None
+        values = {"deviation": moments.deviation, "share": share, "limit": limit * period}
+        return share, (_UNEVEN, values)
+
+
+RULE = Rule(
+    id="period-jitter",
+    title=Text("Periodic frames come evenly", "周期报文间隔均匀"),
+    purpose=Text(
+        "A control loop closed over the bus needs fresh values at even steps.",
+        "通过总线闭环的控制需要间隔均匀的最新数据。",
+    ),
+    clause="A.1",
+    severity=Severity.SHOULD,
+    judges=PROTOCOL.nodes,
+    tolerances=(_SHARE, _LEAST),
+    watch=PeriodJitter,
+)

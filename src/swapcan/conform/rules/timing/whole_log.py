@@ -1,0 +1,62 @@
+"""What rules share that judge all steps of a message together, at the end of the log."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings, Occurrence, Said, Subject
+from swapcan.conform.moments import Moments
+from swapcan.conform.rule import Watcher
+from swapcan.conform.steps import StepMeter, Steps
+
+
+class WholeLog(Watcher):
+    """Adds up the steps of each message."""
+
+    def __init__(self, findings: Findings) -> None:
+        super().__init__(findings)
+        self._meter = StepMeter()
+        self._moments = dict.fromkeys(PROTOCOL.messages, Moments())
+
+    @property
+    @abstractmethod
+    def least(self) -> float:
+        """Steps that it takes to judge a message."""
+
+    @abstractmethod
+    def judge(self, period: float, moments: Moments) -> tuple[float, Said | None]:
+        """How far off the steps of a message are, and what is wrong with them, if anything."""
+
+    def moments(self, period: float, steps: Steps) -> Moments:  # noqa: ARG002
+        """Of the steps that count."""
+        return steps.moments
+
+    def take(self, chunk: Chunk) -> None:
+        """Add the steps that end here."""
+        for message, steps in self._meter.take(chunk).steps.items():
+            if message.PERIOD:
+                self._moments[message] += self.moments(message.PERIOD, steps)
+
+    def finish(self, end: float) -> None:  # noqa: ARG002
+        """Judge each message that came often enough."""
+        for message, moments in self._moments.items():
+            if not message.PERIOD or moments.count < max(self.least, 1):
+                continue
+            seen = self._meter.messages[message]
+            self.findings.examine(message.SENDER)
+            measure, said = self.judge(message.PERIOD, moments)
+            if said:
+                self.findings.add(
+                    Occurrence(
+                        subject=Subject(message.SENDER, message.NAME),
+                        start=seen.first,
+                        end=seen.last,
+                        order=seen.first_order,
+                        frames=seen.frames,
+                        measure=measure,
+                        text=said[0],
+                        values=said[1],
+                    )
+                )

@@ -1,0 +1,40 @@
+"""A recording that conforms, altered in one place for each rule, flips the right verdicts only."""
+
+from __future__ import annotations
+
+import pytest
+from conform.alterations import ALTERATIONS, CSCS, PLAN, SECONDS
+from conform.altered import Frames
+from conform.recorded import block_of, recorded
+
+from swapcan.conform import RULES, Judge, Judgement
+
+OVER_LONGER_TIMES = {"energy-follows-power", "soc-follows-current"}
+"""Rules that judge minutes only; their case folders show what they find."""
+
+
+def judged(frames: Frames) -> Judgement:
+    """What all rules say."""
+    judge = Judge()
+    judge.take(block_of(frames))
+    return judge.finish()
+
+
+def found(judgement: Judgement) -> set[str]:
+    """The rules that found something."""
+    return {result.rule.id for result in judgement.results if result.count}
+
+
+def test_nothing_is_found_in_what_is_not_altered() -> None:
+    assert found(judged(recorded(PLAN, seconds=SECONDS, cscs=CSCS))) == set()
+
+
+@pytest.mark.parametrize("rule", ALTERATIONS)
+def test_an_alteration_is_found_by_its_rule_and_by_no_unrelated_one(rule: str) -> None:
+    alter, others = ALTERATIONS[rule]
+    assert found(judged(alter(recorded(PLAN, seconds=SECONDS, cscs=CSCS)))) == {rule, *others}
+
+
+def test_every_rule_has_its_alteration() -> None:
+    assert ALTERATIONS.keys() | OVER_LONGER_TIMES == {rule.id for rule in RULES}
+    assert not ALTERATIONS.keys() & OVER_LONGER_TIMES
