@@ -38,8 +38,8 @@ _EXAMPLES = """examples:
   swapcan send B2V_ST2 soc=80 -i socketcan -c can0    one message onto a bus
   swapcan simulate BMU CHG -i socketcan -c can0       a pack and a charger that behave
 
-exit status: 0 all is well, 1 the demo missed something, 2 the command could not do its work,
-3 a log is damaged: what could be read was used"""
+exit status: 0 all is well, 1 the demo missed something or a log does not conform, 2 the command
+could not do its work, 3 a log is damaged: what could be read was used"""
 
 
 def run(arguments: Sequence[str]) -> int:

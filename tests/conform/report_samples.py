@@ -18,8 +18,8 @@ from swapcan.conform import (
     Tolerance,
 )
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.load import Load
-from swapcan.conform.periods import Periods
+from swapcan.conform.measure.load import Load
+from swapcan.conform.measure.periods import Periods
 from swapcan.conform.report.moments import Moment, Track
 from swapcan.conform.rule import Watcher
 from swapcan.conform.text import Text

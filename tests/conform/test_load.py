@@ -12,7 +12,7 @@ from dbcspec.load.analysis import analyse
 from dbcspec.load.traffic import Scenario, Size
 from dbcspec.model import Protocol
 from swapcan.conform import judge_log
-from swapcan.conform.load import Load
+from swapcan.conform.measure.load import Load
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
 
 BIT_RATE = 250_000

@@ -121,7 +121,7 @@ def test_a_pack_that_tells_nothing_is_not_judged(bench: Bench) -> None:
         totals(cells=3),
         cells(every(0.1, 0.08, 2), 3300),
         at(every(0.1, 0, 2), "B2V_ST5", **invalid),
-    ).keys() == {"cell-count-announced"}
+    ).keys() == {"cell-count-announced", "reading-missing"}
 
 
 def totals(*, cells: int, cscs: int = 1, time: float = 0.0) -> list[Sketch]:

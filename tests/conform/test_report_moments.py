@@ -11,8 +11,8 @@ import pytest
 from conform.report_samples import PLAIN, result, rule
 
 from swapcan.conform import Judgement, Occurrence, Severity, Subject, judge_log
+from swapcan.conform.measure.steps import frame_of_cycle
 from swapcan.conform.report import moments
-from swapcan.conform.steps import frame_of_cycle
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_Ucell
 

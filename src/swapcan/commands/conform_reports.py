@@ -93,14 +93,20 @@ class Reports:
                 raise CommandError(f"--{kind}: {taken[place]}")
             taken[place] = f"{path} is written already"
 
-    def write(self, judged: Sequence[Judged]) -> None:
-        """Print the summary, and write what is wanted; raises `CommandError`."""
+    def write(self, judged: Sequence[Judged], status: int) -> None:
+        """Print the summary, and write what is wanted; raises `CommandError`.
+
+        ``status`` is the exit status of the command.
+        """
         judgements = [each.judgement for each in judged]
         if self.json:
             say(to_json(judgements, self.language).rstrip("\n"))
         else:
             colour = _has_colours()
-            for line in summary(judgements, self.language, colour=colour, verbose=self.verbose):
+            lines = summary(
+                judgements, self.language, colour=colour, verbose=self.verbose, status=status
+            )
+            for line in lines:
                 say(line)
         for kind, path in self.files.items():
             _put(path, self._text(kind, judged))

@@ -12,7 +12,6 @@ from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_lists import list_rules, list_scenarios, list_tolerances
 from swapcan.commands.conform_reports import Judged, Reports
 from swapcan.conform import Judgement, Severity, Status, Verdict
-from swapcan.conform.report import overall
 from swapcan.console import CommandError, note
 from swapcan.logs.progress import Progress
 from swapcan.logs.window import moment
@@ -45,8 +44,9 @@ def run(given: argparse.Namespace) -> int:
         judged = judged_on_bus(given, choice, stack) if on_bus else _judged_logs(given, choice)
         if not judged:
             return NOT_JUDGED
-        reports.write(judged)
-    return _status(judged, choice)
+        status = _status(judged, choice)
+        reports.write(judged, status)
+    return status
 
 
 def _is_on_bus(given: argparse.Namespace) -> bool:
@@ -100,7 +100,7 @@ def _size(log: Path) -> int:
 
 
 def _status(judged: Sequence[Judged], choice: Choice) -> int:
-    """The exit status; what the summary cannot know of it is said."""
+    """The exit status; what of it does not follow from the rules is said."""
     statuses = {_STATUSES[each.judgement.verdict] for each in judged}
     for each in judged:
         judgement = each.judgement
@@ -125,13 +125,9 @@ def _status(judged: Sequence[Judged], choice: Choice) -> int:
         if missing:
             statuses.add(NOT_JUDGED)
             note(f"{judgement.log}: no frame of {', '.join(missing)}")
-    status = next(each for each in (VIOLATES, NOT_JUDGED, CONFORMS) if each in statuses)
-    if status != _STATUSES[overall([each.judgement for each in judged])]:
-        note(f"exit status {status} for that")
-    return status
+    return next(each for each in (VIOLATES, NOT_JUDGED, CONFORMS) if each in statuses)
 
 
 def _is_broken(judgement: Judgement, severity: Severity) -> bool:
-    return any(
-        result.rule.severity is severity for result in judgement.of_status(Status.FAILED)
-    )  # fmt: skip
+    failed = judgement.of_status(Status.FAILED)
+    return any(result.rule.severity is severity for result in failed)

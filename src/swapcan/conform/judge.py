@@ -14,8 +14,8 @@ from swapcan.conform.before import Before
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.judgement import Judgement, RuleResult
-from swapcan.conform.load import LoadMeter
-from swapcan.conform.periods import PeriodMeter
+from swapcan.conform.measure.load import LoadMeter
+from swapcan.conform.measure.periods import PeriodMeter
 from swapcan.conform.registry import RULES
 from swapcan.conform.rule import Rule
 from swapcan.conform.series import Series

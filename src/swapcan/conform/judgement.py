@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 from swapcan.conform.findings import Occurrence
-from swapcan.conform.load import Load
-from swapcan.conform.periods import Periods
+from swapcan.conform.measure.load import Load
+from swapcan.conform.measure.periods import Periods
 from swapcan.conform.rule import Rule, Severity
 
 

@@ -34,7 +34,7 @@ from typing import Any
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult
-from swapcan.conform.periods import Periods
+from swapcan.conform.measure.periods import Periods
 from swapcan.conform.report import facts, figures
 from swapcan.conform.text import Language, Text
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
-from swapcan.conform.load import Load
+from swapcan.conform.measure.load import Load
 from swapcan.conform.report import words
 from swapcan.conform.report.visible import visible
 from swapcan.conform.rule import Rule, Severity

@@ -8,14 +8,14 @@ from dataclasses import dataclass, field, replace
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Subject
-from swapcan.conform.steps import KEYED
+from swapcan.conform.measure.steps import KEYED
 from swapcan.message import Field, LabelledField, Message
 
 _MOST = 6
 """Messages that are shown of a node."""
 
 _FRAME_OF_CYCLE = re.compile(r"CSC (\d+) frame (\d+)")
-"""What `swapcan.conform.steps.frame_of_cycle` writes."""
+"""What `swapcan.conform.measure.steps.frame_of_cycle` writes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swapcan.conform.judgement import Judgement
-from swapcan.conform.load import Load
+from swapcan.conform.measure.load import Load
 from swapcan.conform.report import facts, figures, words
 from swapcan.conform.report.html.markup import Markup, element, lines
 from swapcan.conform.text import Language

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from swapcan.conform.judgement import Judgement
-from swapcan.conform.periods import Periods
+from swapcan.conform.measure.periods import Periods
 from swapcan.conform.report import figures, words
 from swapcan.conform.report.allowed import allowed_step
 from swapcan.conform.report.html.markup import Markup, element, lines

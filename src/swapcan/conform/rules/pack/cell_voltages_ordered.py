@@ -41,6 +41,9 @@ _TOO_HIGH = Text(
     "more",
     "平均值为 {average:.3f} V,最高单体为 {other:.3f} V;允许高出 {allowed:g} V",
 )
+_IN_A_ROW = 2
+"""A single frame that was held back is told beside lowest voltages of another moment."""
+
 _TOO_LOW = Text(
     "the average is {average:.3f} V, the lowest cell has {other:.3f} V; allowed: {allowed:g} V "
     "less",
@@ -56,7 +59,8 @@ class CellVoltagesOrdered(Watcher):
         self._step, self._volts = findings.limit(_STEP), findings.limit(_VOLTS)
         self._surroundings = Surroundings()
         self._above = Runs(findings, Subject(B2V_ST5.SENDER, B2V_ST5.NAME, _AVERAGE, "> max"))
-        self._below = Runs(findings, Subject(B2V_ST5.SENDER, B2V_ST5.NAME, _AVERAGE, "< min"))
+        below = Subject(B2V_ST5.SENDER, B2V_ST5.NAME, _AVERAGE, "< min")
+        self._below = Runs(findings, below, least=_IN_A_ROW)
 
     def take(self, chunk: Chunk) -> None:
         """Judge the new frames."""

@@ -7,12 +7,12 @@ import numpy as np
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.frame_bits import Bits, frame_bits
-from swapcan.conform.load import BIT_RATE
+from swapcan.conform.measure.frame_bits import Bits, frame_bits
+from swapcan.conform.measure.load import BIT_RATE
+from swapcan.conform.measure.traffic import Channel, Traffic
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.conform.traffic import Channel, Traffic
 from swapcan.message import Message
 
 _SHARE = Tolerance(

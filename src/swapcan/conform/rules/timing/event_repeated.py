@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.asked import REQUESTS
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.measure.asked import REQUESTS
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance

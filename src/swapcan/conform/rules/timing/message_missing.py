@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.presence import PERIODS, Presence
+from swapcan.conform.measure.presence import PERIODS, Presence
+from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.steps import StepMeter
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.message import Message

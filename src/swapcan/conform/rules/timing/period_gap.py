@@ -5,10 +5,10 @@ from __future__ import annotations
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.presence import PERIODS
+from swapcan.conform.measure.presence import PERIODS
+from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.timing.step_findings import add_steps
-from swapcan.conform.steps import StepMeter
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 

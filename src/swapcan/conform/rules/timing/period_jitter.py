@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Said
-from swapcan.conform.moments import Moments, moments_of
+from swapcan.conform.measure.spread import Spread, spread_of
+from swapcan.conform.measure.steps import Steps
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.rules.timing.period_gap import gap_limit
 from swapcan.conform.rules.timing.whole_log import WholeLog
-from swapcan.conform.steps import Steps
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 
@@ -44,19 +44,19 @@ class PeriodJitter(WholeLog):
         """Steps that it takes to judge a message."""
         return self.findings.limit(_LEAST)
 
-    def moments(self, period: float, steps: Steps) -> Moments:
+    def spread(self, period: float, steps: Steps) -> Spread:
         """Of the steps that are no gaps."""
         limit = gap_limit(self.findings, period)
-        if steps.moments.longest <= limit:
-            return steps.moments
-        return moments_of(steps.length[steps.length <= limit])
+        if steps.spread.longest <= limit:
+            return steps.spread
+        return spread_of(steps.length[steps.length <= limit])
 
-    def judge(self, period: float, moments: Moments) -> tuple[float, Said | None]:
+    def judge(self, period: float, spread: Spread) -> tuple[float, Said | None]:
         """How large the deviation is, in periods."""
-        share, limit = moments.deviation / period, self.findings.limit(_SHARE)
+        share, limit = spread.deviation / period, self.findings.limit(_SHARE)
         if share <= limit:
             return share, None
-        values = {"deviation": moments.deviation, "share": share, "limit": limit * period}
+        values = {"deviation": spread.deviation, "share": share, "limit": limit * period}
         return share, (_UNEVEN, values)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Said
-from swapcan.conform.moments import Moments
+from swapcan.conform.measure.spread import Spread
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.rules.timing.whole_log import WholeLog
 from swapcan.conform.text import Text
@@ -38,12 +38,12 @@ class PeriodMean(WholeLog):
         """Steps that it takes to judge a message."""
         return self.findings.limit(_LEAST)
 
-    def judge(self, period: float, moments: Moments) -> tuple[float, Said | None]:
+    def judge(self, period: float, spread: Spread) -> tuple[float, Said | None]:
         """How far off the mean is, in periods."""
-        off = abs(moments.mean / period - 1)
+        off = abs(spread.mean / period - 1)
         if off <= self.findings.limit(_SHARE):
             return off, None
-        return off, (_OFF, {"mean": moments.mean, "count": moments.count, "period": period})
+        return off, (_OFF, {"mean": spread.mean, "count": spread.count, "period": period})
 
 
 RULE = Rule(

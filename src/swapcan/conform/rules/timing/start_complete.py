@@ -7,10 +7,10 @@ import math
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.presence import PERIODS, Start
+from swapcan.conform.measure.presence import PERIODS, Start
+from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
-from swapcan.conform.steps import StepMeter
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.message import Message

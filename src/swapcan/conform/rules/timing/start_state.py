@@ -6,11 +6,11 @@ import math
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.presence import Start
+from swapcan.conform.measure.presence import Start
+from swapcan.conform.measure.silences import HV_ON, Silences
+from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
-from swapcan.conform.silences import HV_ON, Silences
-from swapcan.conform.steps import StepMeter
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2V_ST1

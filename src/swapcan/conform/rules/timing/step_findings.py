@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.findings import KEPT, Findings, Occurrence, Subject
-from swapcan.conform.steps import Steps
+from swapcan.conform.measure.steps import Steps
 from swapcan.conform.text import Text
 
 

@@ -7,9 +7,9 @@ from abc import abstractmethod
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Said, Subject
-from swapcan.conform.moments import Moments
+from swapcan.conform.measure.spread import Spread
+from swapcan.conform.measure.steps import StepMeter, Steps
 from swapcan.conform.rule import Watcher
-from swapcan.conform.steps import StepMeter, Steps
 
 
 class WholeLog(Watcher):
@@ -18,7 +18,7 @@ class WholeLog(Watcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._meter = StepMeter()
-        self._moments = dict.fromkeys(PROTOCOL.messages, Moments())
+        self._spread = dict.fromkeys(PROTOCOL.messages, Spread())
 
     @property
     @abstractmethod
@@ -26,27 +26,27 @@ class WholeLog(Watcher):
         """Steps that it takes to judge a message."""
 
     @abstractmethod
-    def judge(self, period: float, moments: Moments) -> tuple[float, Said | None]:
+    def judge(self, period: float, spread: Spread) -> tuple[float, Said | None]:
         """How far off the steps of a message are, and what is wrong with them, if anything."""
 
-    def moments(self, period: float, steps: Steps) -> Moments:  # noqa: ARG002
+    def spread(self, period: float, steps: Steps) -> Spread:  # noqa: ARG002
         """Of the steps that count."""
-        return steps.moments
+        return steps.spread
 
     def take(self, chunk: Chunk) -> None:
         """Add the steps that end here."""
         for message, steps in self._meter.take(chunk).steps.items():
             if message.PERIOD:
-                self._moments[message] += self.moments(message.PERIOD, steps)
+                self._spread[message] += self.spread(message.PERIOD, steps)
 
     def finish(self, end: float) -> None:  # noqa: ARG002
         """Judge each message that came often enough."""
-        for message, moments in self._moments.items():
-            if not message.PERIOD or moments.count < max(self.least, 1):
+        for message, spread in self._spread.items():
+            if not message.PERIOD or spread.count < max(self.least, 1):
                 continue
             seen = self._meter.messages[message]
             self.findings.examine(message.SENDER)
-            measure, said = self.judge(message.PERIOD, moments)
+            measure, said = self.judge(message.PERIOD, spread)
             if said:
                 self.findings.add(
                     Occurrence(

@@ -8,8 +8,8 @@ import numpy as np
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.measure.lasting import Lasting, LastingWatcher
 from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.rules.voltage.lasting import Lasting, LastingWatcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.message import Message

@@ -6,9 +6,9 @@ from functools import partial
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.measure.beside import Beside
+from swapcan.conform.measure.lasting import LastingWatcher
 from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.rules.voltage.beside import Beside
-from swapcan.conform.rules.voltage.lasting import LastingWatcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2V_ST1, BSU_BMS_0, BmsState, ConnectorState, LockState

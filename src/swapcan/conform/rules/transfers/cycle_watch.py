@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
-import numpy as np
-
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Subject
+from swapcan.conform.measure.steps import frame_of_cycle, key_of
 from swapcan.conform.rule import Watcher
 from swapcan.conform.rules.transfers.turn_order import CycleLearner, Learner, Rows
 from swapcan.conform.rules.transfers.turn_watch import TurnWatcher
 from swapcan.conform.rules.transfers.turns import Kind
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.protocol import FieldRef, Transfer
+from swapcan.protocol import Transfer
 
 MISSING_OR_DOUBLED: Mapping[Kind, Text] = {
     Kind.MISSING: Text(
@@ -84,7 +83,6 @@ class CycleWatcher(TurnWatcher):
         texts: Mapping[Kind, Text],
     ) -> None:
         self._message = message = transfer.messages[0]
-        self._group, self._number = _field(transfer.group), _field(transfer.frame_number)
         seconds = findings.limit(pause) * (message.PERIOD or 0.0)
         super().__init__(findings, node=message.SENDER, pause=seconds, texts=texts)
 
@@ -93,17 +91,8 @@ class CycleWatcher(TurnWatcher):
 
     def _new_rows(self, chunk: Chunk) -> Rows:
         series = chunk.frames(self._message)
-        keys = series.new_raw(self._group).astype(np.uint16) << np.uint16(8)
-        keys |= series.new_raw(self._number).astype(np.uint16)
-        return Rows(keys, series.time[series.first :], series.order[series.first :])
+        return Rows(key_of(series), series.time[series.first :], series.order[series.first :])
 
     def _subject(self, key: int) -> Subject:
-        csc, number = divmod(key, 256)
-        detail = f"CSC {csc} frame {number}"
-        return Subject(self._message.SENDER, self._message.NAME, detail=detail)
-
-
-def _field(ref: FieldRef | None) -> str:
-    if ref is None:
-        raise LookupError("the transfer numbers no frames within groups")
-    return ref.field
+        message = self._message
+        return Subject(message.SENDER, message.NAME, detail=frame_of_cycle(key))

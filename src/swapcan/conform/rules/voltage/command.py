@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.rules.voltage.beside import fresh
+from swapcan.conform.measure.beside import fresh
 from swapcan.conform.series import Series, latest
 from swapcan.messages import V2B_CMD
 

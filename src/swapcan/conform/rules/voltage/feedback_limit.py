@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
+from swapcan.conform.measure.beside import Beside
 from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.rules.voltage.beside import Beside
 from swapcan.conform.rules.voltage.over_limit import OverLimit, slack_of
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST1, B2V_ST2, ChargeLine, ChargeState

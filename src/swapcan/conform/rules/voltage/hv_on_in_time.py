@@ -8,11 +8,11 @@ import numpy as np
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.measure.beside import Beside, fresh
+from swapcan.conform.measure.lasting import LastingWatcher
+from swapcan.conform.measure.since import Since
 from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.rules.voltage.beside import Beside, fresh
 from swapcan.conform.rules.voltage.command import moving
-from swapcan.conform.rules.voltage.lasting import LastingWatcher
-from swapcan.conform.rules.voltage.since import Since
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import (

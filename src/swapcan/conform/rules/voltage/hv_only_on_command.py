@@ -8,9 +8,9 @@ import numpy as np
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.measure.beside import Beside, fresh
+from swapcan.conform.measure.since import Since, last
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.voltage.beside import Beside, fresh
-from swapcan.conform.rules.voltage.since import Since, last
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, HvCommand

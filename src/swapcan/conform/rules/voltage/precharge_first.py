@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.measure.beside import Beside, fresh
+from swapcan.conform.measure.since import Since, last
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.voltage.beside import Beside, fresh
-from swapcan.conform.rules.voltage.since import Since, last
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST0, B2V_ST1, BmsState, RelayState

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
-class Moments:
+class Spread:
     """Of some values; those of none are the default.
 
     Parameters
@@ -34,13 +34,13 @@ class Moments:
         """The standard deviation; NaN where there are no values."""
         return math.sqrt(self.square / self.count) if self.count else math.nan
 
-    def __add__(self, other: Moments) -> Moments:
+    def __add__(self, other: Spread) -> Spread:
         """Of both together: from the distances of their means, so that nothing cancels out."""
         if not self.count or not other.count:
             return self if self.count else other
         count = self.count + other.count
         apart = other.mean - self.mean
-        return Moments(
+        return Spread(
             count,
             self.mean + apart * other.count / count,
             self.square + other.square + apart * apart * self.count * other.count / count,
@@ -49,10 +49,10 @@ class Moments:
         )
 
 
-def moments_of(values: NDArray[np.float64]) -> Moments:
-    """The moments of an array."""
+def spread_of(values: NDArray[np.float64]) -> Spread:
+    """The count, mean, deviation and extremes of an array."""
     if not len(values):
-        return Moments()
+        return Spread()
     mean = float(values.mean())
     square = float(np.square(values - mean).sum())
-    return Moments(len(values), mean, square, float(values.min()), float(values.max()))
+    return Spread(len(values), mean, square, float(values.min()), float(values.max()))

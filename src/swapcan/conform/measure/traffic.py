@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.presence import PERIODS
+from swapcan.conform.measure.presence import PERIODS
+from swapcan.conform.measure.steps import KEYED, key_of
 from swapcan.conform.series import Series
-from swapcan.conform.steps import KEYED, key_of
 from swapcan.message import Message
 from swapcan.protocol import Transfer
 

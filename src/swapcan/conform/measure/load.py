@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.frame_bits import Bits, frame_bits
-from swapcan.conform.traffic import Channel, Traffic
+from swapcan.conform.measure.frame_bits import Bits, frame_bits
+from swapcan.conform.measure.traffic import Channel, Traffic
 from swapcan.logs.frames import FrameFlag
 
 BIT_RATE = 250_000

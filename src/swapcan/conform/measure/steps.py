@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.asked import Asked
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.moments import Moments, moments_of
-from swapcan.conform.presence import Presence, Presences, Silence, Start
+from swapcan.conform.measure.asked import Asked
+from swapcan.conform.measure.presence import Presence, Presences, Silence, Start
+from swapcan.conform.measure.spread import Spread, spread_of
 from swapcan.conform.series import Series
 from swapcan.message import Message
 
@@ -76,9 +76,9 @@ class Steps:
         return "" if self._keys is None else frame_of_cycle(int(self._keys[step]))
 
     @cached_property
-    def moments(self) -> Moments:
+    def spread(self) -> Spread:
         """Their mean and deviation."""
-        return moments_of(self.length)
+        return spread_of(self.length)
 
     def only(self, which: NDArray[np.bool_]) -> Steps:
         """Some of them."""

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.findings import Findings, Occurrence, Said, Subject
+from swapcan.conform.measure.beside import fresh
 from swapcan.conform.rule import Watcher
-from swapcan.conform.rules.voltage.beside import fresh
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.message import Message

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.moments import Moments
-from swapcan.conform.steps import StepMeter, Steps
+from swapcan.conform.measure.spread import Spread
+from swapcan.conform.measure.steps import StepMeter, Steps
 from swapcan.message import Message
 
 COLUMNS = 600
@@ -25,8 +25,8 @@ _SHORTEST_SPAN = 1 / 16
 class Periods:
     """How regularly a message came.
 
-    Steps are measured as `swapcan.conform.steps` says: not across a silence of the node, nor from
-    one request to the next.
+    Steps are measured as `swapcan.conform.measure.steps` says: not across a silence of the node,
+    nor from one request to the next.
 
     Parameters
     ----------
@@ -60,13 +60,13 @@ class PeriodMeter:
 
     def __init__(self) -> None:
         self._meter = StepMeter()
-        self._moments = dict.fromkeys(PROTOCOL.messages, Moments())
+        self._spread = dict.fromkeys(PROTOCOL.messages, Spread())
         self._spans: dict[type[Message], _Spans] = {}
 
     def take(self, chunk: Chunk) -> None:
         """Measure the next frames."""
         for message, steps in self._meter.take(chunk).steps.items():
-            self._moments[message] += steps.moments
+            self._spread[message] += steps.spread
             if message not in self._spans:
                 self._spans[message] = _Spans()
             if len(steps):
@@ -81,16 +81,16 @@ class PeriodMeter:
         )
 
     def _periods(self, message: type[Message], period: float, spans: _Spans) -> Periods:
-        moments = self._moments[message]
+        spread = self._spread[message]
         time, low, high = spans.columns()
         return Periods(
             message=message.NAME,
             period=period,
             frames=self._meter.messages[message].frames,
-            mean=moments.mean,
-            deviation=moments.deviation,
-            shortest=moments.shortest if moments.count else math.nan,
-            longest=moments.longest if moments.count else math.nan,
+            mean=spread.mean,
+            deviation=spread.deviation,
+            shortest=spread.shortest if spread.count else math.nan,
+            longest=spread.longest if spread.count else math.nan,
             time=time,
             low=low,
             high=high,

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.presence import Silence
-from swapcan.conform.steps import StepMeter, Timing
+from swapcan.conform.measure.presence import Silence
+from swapcan.conform.measure.steps import StepMeter, Timing
 from swapcan.messages import B2V_ST1, BmsState, C2B_ACStatus, ChargeLine, ChargeState
 
 HV_ON = (BmsState.PRECHARGE, BmsState.HV_CLOSED)
