@@ -17,6 +17,7 @@ from conform.altered import (
     lost_between,
     paced,
     signals,
+    signals_where,
     swapped,
 )
 
@@ -142,11 +143,11 @@ _add(
 )
 _add(
     "reading-missing",
-    signals(
+    signals_where(
+        {"B2V_UC_CSCNo": 2, "B2V_UC_FrameNo": 1},
         "B2V_Ucell",
         5.0,
         12.0,
-        only={"B2V_UC_CSCNo": 2, "B2V_UC_FrameNo": 1},
         B2V_UC_CSCNo_UcellN=0xFFFF,
     ),
 )

@@ -44,18 +44,18 @@ def with_data(frame: can.Message, data: bytes) -> can.Message:
     return other
 
 
-def signals(
-    name: str,
-    begin: float,
-    end: float | None = None,
-    *,
-    only: Mapping[str, int] | None = None,
-    **raw: int,
-) -> Alteration:
+def signals(name: str, begin: float, end: float | None = None, **raw: int) -> Alteration:
     """Raw values of signals, in all frames of a message from begin to end or in the first only.
 
-    ``only`` names raw values that a frame must have. The checksum is made right.
+    The checksum is made right.
     """
+    return signals_where({}, name, begin, end, **raw)
+
+
+def signals_where(
+    only: Mapping[str, int], name: str, begin: float, end: float | None = None, **raw: int
+) -> Alteration:
+    """The same in those frames only that have some raw values already."""
     message = _message(name)
 
     def alter(frames: Frames) -> Frames:
@@ -66,14 +66,12 @@ def signals(
                 values = message.decode(bytes(frame.data), decode_choices=False, scaling=False)
                 assert isinstance(values, dict)
                 assert raw.keys() <= values.keys()
-                if only and not only.items() <= values.items():
-                    result.append(frame)
+                if only.items() <= values.items():
+                    data = message.encode(values | raw, scaling=False, strict=False)
+                    result.append(with_data(frame, _sealed(name, data)))
+                    done = True
                     continue
-                data = message.encode(values | raw, scaling=False, strict=False)
-                result.append(with_data(frame, _sealed(name, data)))
-                done = True
-            else:
-                result.append(frame)
+            result.append(frame)
         assert done
         return tuple(result)
 

@@ -74,7 +74,7 @@ def printed_by(snippet: str, folder: Path) -> list[str]:
 
 
 def test_each_python_snippet_of_the_readme_is_looked_at_here() -> None:
-    assert len(blocks("python")) == 3
+    assert len(blocks("python")) == 4
 
 
 def test_the_snippet_for_links_prints_what_was_sent(tmp_path: Path) -> None:
@@ -98,6 +98,13 @@ def test_the_snippet_for_simulations_ends_with_the_high_voltage_off(tmp_path: Pa
     (line,) = printed_by(blocks("python")[2], tmp_path)
     assert "PRECHARGE" in line
     assert "HV_CLOSED" in line
+
+
+def test_the_snippet_for_conformance_judges_the_log_beside_it(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(project)
+    assert printed_by(blocks("python")[3], project) == ["conforms"]
 
 
 def test_ci_runs_the_two_commands_as_the_readme_prints_them() -> None:

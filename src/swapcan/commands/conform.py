@@ -72,9 +72,7 @@ def _add_reports(parser: argparse.ArgumentParser) -> None:
         ("--csv", "a table with a row per finding"),
     ):
         completing_files(group.add_argument(name, type=Path, metavar="FILE", help=text))
-    group.add_argument(
-        "--json", action="store_true", help="print JSON in place of the summary"
-    )  # fmt: skip
+    group.add_argument("--json", action="store_true", help="print JSON in place of the summary")
     group.add_argument(
         "--language",
         choices=("en", "zh"),

@@ -88,10 +88,15 @@ class _Troubled(Reaction):
         order = int(reaction.order[0])
         self.findings.add(
             Occurrence(
-                subject=subject, start=at, end=at, order=order, measure=at - begin, text=text,
+                subject=subject,
+                start=at,
+                end=at,
+                order=order,
+                measure=at - begin,
+                text=text,
                 values=values,
             )
-        )  # fmt: skip
+        )
 
 
 class _Silent(_Troubled):
