@@ -19,7 +19,7 @@ from dbcspec.project import Project, load
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 settings.register_profile(
-    "repeatable", derandomize=True, database=None, deadline=None, max_examples=100
+    "repeatable", derandomize=True, database=None, deadline=None, max_examples=60
 )
 settings.load_profile("repeatable")
 

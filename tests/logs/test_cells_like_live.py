@@ -93,7 +93,7 @@ def from_log(sent: list[Sent], borders: list[int]) -> tuple[Rows, CycleCounts]:
     return rows, columns.counts["cells"]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.integers(0, 2**32), st.integers(1, 400))
 def test_rows_and_faults_are_those_of_the_live_runtime(seed: int, block: int) -> None:
     sent = rough_log(random.Random(seed))

@@ -53,7 +53,7 @@ def assert_agrees(
         assert values.keys() <= found.columns.keys()
 
 
-@settings(max_examples=150)
+@settings(max_examples=100)
 @pytest.mark.parametrize("mode", [Mode.PHYSICAL, Mode.RAW])
 @given(databases(), st.integers(0, 1 << 32), st.sampled_from([None, 64]))
 def test_every_frame_decodes_as_cantools_does(

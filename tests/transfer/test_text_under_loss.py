@@ -103,7 +103,7 @@ def test_a_value_comes_out_once_it_came_so_often(
     assert reported(assembler_for(value, rounds), arrived + whole)[-1] == value
 
 
-@settings(max_examples=200)
+@settings(max_examples=120)
 @given(two_senders(), st.sampled_from([1, 2]))
 def test_two_senders_without_loss_are_never_mixed(
     senders: tuple[list[str], list[Sent]], rounds: int
@@ -112,7 +112,7 @@ def test_two_senders_without_loss_are_never_mixed(
     assert set(reported(assembler_for(pair[0], rounds), stream)) <= set(pair)
 
 
-@settings(max_examples=200)
+@settings(max_examples=120)
 @given(st.sampled_from([(2, 1), (2, 2), (3, 3), (4, 4)]), st.data())
 def test_as_many_senders_as_rounds_in_any_turns_are_never_mixed(
     senders_and_rounds: tuple[int, int], data: st.DataObject
@@ -128,7 +128,7 @@ def test_as_many_senders_as_rounds_in_any_turns_are_never_mixed(
     assert set(reported(assembler_for(sending[0], rounds), stream)) <= set(sending)
 
 
-@settings(max_examples=250)
+@settings(max_examples=150)
 @given(two_senders(), st.data(), st.sampled_from([1, 2]))
 def test_two_senders_are_not_mixed_by_fewer_losses_than_frames_differ(
     senders: tuple[list[str], list[Sent]], data: st.DataObject, rounds: int
@@ -155,7 +155,7 @@ def changing(pair: Sequence[str], change: int, copies: Sequence[int]) -> list[Se
 COPIES = st.lists(st.sampled_from([0, 1, 1, 2]), min_size=32, max_size=32)
 
 
-@settings(max_examples=250)
+@settings(max_examples=150)
 @given(values(2), st.integers(0, 32), COPIES)
 def test_a_change_at_any_point_yields_the_old_or_the_new_value_of_two_rounds(
     pair: list[str], change: int, copies: list[int]
@@ -164,7 +164,7 @@ def test_a_change_at_any_point_yields_the_old_or_the_new_value_of_two_rounds(
     assert seen == sorted(seen, key=pair.index), "old values first, then new ones, nothing else"
 
 
-@settings(max_examples=200)
+@settings(max_examples=120)
 @given(values(2), st.integers(0, 32), COPIES)
 def test_a_change_after_a_first_result_yields_the_old_or_the_new_value_of_one_round(
     pair: list[str], change: int, copies: list[int]
