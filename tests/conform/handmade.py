@@ -11,11 +11,11 @@ from pathlib import Path
 import can
 import cantools
 from cantools.database.can import Database
+from conform.in_blocks import judged
 from conform.recorded import written
 
-from swapcan.conform import Judge, Judgement, Rule
+from swapcan.conform import Judgement, Rule
 from swapcan.database import dbc_text
-from swapcan.logs.read import open_log
 
 _LOADED = cantools.database.load_string(dbc_text(), "dbc")
 assert isinstance(_LOADED, Database)
@@ -58,20 +58,6 @@ def frames_of(*sketches: Iterable[Sketch], stuck: bool = False) -> list[can.Mess
 
 def _time(sketch: Sketch) -> float:
     return sketch[0]
-
-
-def judged(
-    log: Path,
-    rules: Sequence[Rule],
-    block: int = 1 << 17,
-    limits: Mapping[str, float] | None = None,
-) -> Judgement:
-    """What rules find in a log that is read so many frames at a time."""
-    judge = Judge(("BMU", "VCU", "CHG", "TMS", "BSU"), rules, limits)
-    with open_log(log, block) as source:
-        for frames in source:
-            judge.take(frames)
-    return judge.finish()
 
 
 def found(judgement: Judgement) -> dict[str, list[str]]:

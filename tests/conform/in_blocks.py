@@ -1,29 +1,45 @@
-"""Logs judged by one rule, so many frames at a time."""
+"""Logs judged so many frames at a time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from swapcan.conform import Judge, Rule, RuleResult
+from swapcan.conform import Judge, Judgement, Rule, RuleResult
 from swapcan.logs.read import open_log
 
-ALL = 1 << 16
-
+ALL = 1 << 17
 
 NODES = ("BMU", "VCU", "CHG", "TMS", "BSU")
+
+
+def judged(
+    log: Path,
+    rules: Sequence[Rule],
+    size: int = ALL,
+    limits: Mapping[str, float] | None = None,
+    *,
+    nodes: Iterable[str] = NODES,
+) -> Judgement:
+    """What rules find in a log that is read in blocks of ``size`` frames."""
+    judge = Judge(nodes, rules, limits)
+    with open_log(log, size) as source:
+        for block in source:
+            judge.take(block)
+        assert source.damage is None
+    return judge.finish()
 
 
 def result_of(
     rule: Rule, log: Path, size: int = ALL, *, nodes: Iterable[str] = NODES
 ) -> RuleResult:
-    """What a rule finds in a log that is read in blocks of ``size`` frames."""
-    judge = Judge(nodes, rules=[rule])
-    with open_log(log, size) as source:
-        for block in source:
-            judge.take(block)
-        assert source.damage is None
-    return judge.finish().result(rule.id)
+    """The same of one rule."""
+    return judged(log, [rule], size, nodes=nodes).result(rule.id)
+
+
+def essence(result: RuleResult) -> tuple[object, ...]:
+    """All that was found, to compare."""
+    return result.examined, result.count, result.frames, result.occurrences
 
 
 def candump(path: Path, *lines: str) -> Path:

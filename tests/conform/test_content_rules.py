@@ -9,11 +9,10 @@ from pathlib import Path
 
 import pytest
 from conform.altered import database
-from conform.in_blocks import ALL, candump, found, result_of
+from conform.in_blocks import ALL, candump, result_of
 
-from swapcan.conform import Rule, RuleResult, judge_log
+from swapcan.conform import RuleResult, judge_log
 from swapcan.conform.rules.content import (
-    RULES,
     code_defined,
     code_reserved,
     invalid_lasting,
@@ -75,16 +74,6 @@ def frames_by_signal(result: RuleResult) -> Counter[str]:
     for each in result.occurrences:
         frames[each.subject.signal] += each.frames
     return frames
-
-
-@pytest.mark.parametrize("log", ["passes.log", "fails.log"])
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_the_same_is_found_wherever_a_log_is_cut(rule: Rule, log: str) -> None:
-    path = CASES / rule.id / log
-    whole, sevens, ones = (result_of(rule, path, size) for size in (ALL, 7, 1))
-    assert found(ones) == found(sevens) == found(whole)
-    assert ones.examined == sevens.examined == whole.examined
-    assert ones.frames == sevens.frames == whole.frames
 
 
 def test_of_all_codes_of_short_signals_those_are_found_that_no_table_has(tmp_path: Path) -> None:

@@ -10,10 +10,11 @@ import cantools
 import pytest
 from cantools.database.can import Database
 from conform.altered import signals
-from conform.handmade import CASES, Bench, Sketch, at, every, judged
+from conform.handmade import Bench, Sketch, at, every
+from conform.in_blocks import judged
 from conform.recorded import recorded, written
 
-from swapcan.conform import Judgement, Rule
+from swapcan.conform import Judgement
 from swapcan.conform.rules.pack import RULES
 from swapcan.conform.rules.pack.alarms import alarm_bits
 from swapcan.database import dbc_text
@@ -52,15 +53,6 @@ def broken(frames: Sequence[can.Message], path: Path) -> dict[str, int]:
     """How many frames are wrong, by the rules that find any."""
     results = judged(written(frames, path), RULES).results
     return {result.rule.id: result.frames for result in results if result.count}
-
-
-@pytest.mark.parametrize("log", ["passes.log", "fails.log"])
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_it_does_not_matter_where_a_log_is_cut(rule: Rule, log: str) -> None:
-    path = CASES / rule.id / log
-    whole = told(judged(path, [rule]))
-    assert told(judged(path, [rule], 1)) == whole
-    assert told(judged(path, [rule], 7)) == whole
 
 
 def test_a_log_whose_pack_tells_its_totals_late_can_be_cut_anywhere(

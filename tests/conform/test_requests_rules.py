@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.in_blocks import candump, found, result_of
+from conform.in_blocks import candump, essence, found, result_of
 from conform.recorded import recorded, written
 
-from swapcan.conform import Rule, RuleResult, Status, judge_log
+from swapcan.conform import Status, judge_log
 from swapcan.conform.rules.requests import RULES
 
 CASES = Path(__file__).with_name("cases")
@@ -24,20 +24,6 @@ ASK_VIN, ASK_NO_VIN, VIN_INVALID = (
 INFO_1, INFO_2 = "can0 18E5D0F3#18010003D7003300", "can0 18E6D0F3#0218000C00201924"
 VIN = "can0 18E1F3D0#0131313131313131"
 FROM_BMU, FROM_VCU = "can0 1883D0F3#0000000000000000", "can0 1802F3D0#0000000000000000"
-
-
-def essence(result: RuleResult) -> tuple[object, ...]:
-    """All that was found; of several that are equally bad any may be the worst."""
-    return result.examined, result.count, result.frames, result.occurrences
-
-
-@pytest.mark.parametrize("log", ["passes.log", "fails.log"])
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_it_does_not_matter_where_a_log_is_cut(rule: Rule, log: str) -> None:
-    path = CASES / rule.id / log
-    whole = essence(result_of(rule, path))
-    assert essence(result_of(rule, path, 1)) == whole
-    assert essence(result_of(rule, path, 7)) == whole
 
 
 def test_simulated_nodes_ask_answer_and_withdraw(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from conform.in_blocks import ALL, result_of
 
 from swapcan.conform import RULES, Judgement, Rule, RuleResult, Status, judge_log
 from swapcan.conform import rules as folders
@@ -53,6 +54,15 @@ def test_a_rule_says_the_same_in_chinese(rule: Rule) -> None:
         assert re.search(r"[\u4e00-\u9fff]", each.says("zh"))
     for text in (rule.title, rule.purpose, *(each.text for each in rule.tolerances)):
         assert re.search(r"[\u4e00-\u9fff]", text.zh)
+
+
+@pytest.mark.parametrize("size", [1, 7])
+@pytest.mark.parametrize("log", ["passes.log", "fails.log"])
+@over_all_rules
+def test_a_rule_finds_the_same_wherever_a_log_is_cut(rule: Rule, log: str, size: int) -> None:
+    whole, cut = (result_of(rule, CASES / rule.id / log, frames) for frames in (ALL, size))
+    assert lines(cut) == lines(whole)
+    assert (cut.examined, cut.count, cut.frames) == (whole.examined, whole.count, whole.frames)
 
 
 def test_every_rule_has_a_case_folder_and_every_folder_a_rule() -> None:

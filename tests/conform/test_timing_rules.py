@@ -85,13 +85,6 @@ def everything(judgement: Judgement) -> list[object]:
     ]
 
 
-@pytest.mark.parametrize("log", LOGS, ids=lambda log: f"{log.parent.name}-{log.stem}")
-def test_it_does_not_matter_where_a_log_is_cut(log: Path) -> None:
-    whole = everything(in_blocks(log, 1000))
-    assert everything(in_blocks(log, 1)) == whole
-    assert everything(in_blocks(log, 7)) == whole
-
-
 def test_it_does_not_matter_where_a_log_with_faults_is_cut(tmp_path: Path) -> None:
     frames = recorded(
         "hv_on@0.5s, ask@1s, drive@2s", "BMU.bus_silence@4s+2s", "BMU.late_frame@7s+1s", seconds=9.0

@@ -5,23 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.handmade import CASES, Bench, at, every, judged
+from conform.handmade import Bench, at, every
+from conform.in_blocks import judged
 from conform.recorded import recorded, written
 
-from swapcan.conform import Rule, Severity
+from swapcan.conform import Severity
 from swapcan.conform.rules.told import RULES
 
 
 @pytest.fixture
 def bench(tmp_path: Path) -> Bench:
     return Bench(tmp_path, RULES)
-
-
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_it_does_not_matter_where_a_log_is_cut(rule: Rule) -> None:
-    for log, block in (("fails.log", 1), ("fails.log", 7), ("passes.log", 1)):
-        path = CASES / rule.id / log
-        assert judged(path, RULES, block).results == judged(path, RULES).results
 
 
 def test_nothing_that_a_node_tells_breaks_the_standard() -> None:

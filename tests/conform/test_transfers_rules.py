@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import pytest
-from conform.in_blocks import candump, found, result_of
+from conform.in_blocks import candump, essence, found, result_of
 from conform.recorded import recorded, written
 
-from swapcan.conform import Rule, RuleResult, Status, judge_log
+from swapcan.conform import Rule, Status, judge_log
 from swapcan.conform.rules.transfers import RULES
 
 CASES = Path(__file__).with_name("cases")
@@ -53,20 +53,6 @@ def faults(rule: Rule, log: Path) -> list[tuple[str, str]]:
 
 def named(key: Key) -> str:
     return f"B2V_Ucell CSC {key[0]} frame {key[1]}"
-
-
-def essence(result: RuleResult) -> tuple[object, ...]:
-    """All that was found; of several that are equally bad any may be the worst."""
-    return result.examined, result.count, result.frames, result.occurrences
-
-
-@pytest.mark.parametrize("log", ["passes.log", "fails.log"])
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_it_does_not_matter_where_a_log_is_cut(rule: Rule, log: str) -> None:
-    path = CASES / rule.id / log
-    whole = essence(result_of(rule, path))
-    assert essence(result_of(rule, path, 1)) == whole
-    assert essence(result_of(rule, path, 7)) == whole
 
 
 def test_all_that_simulated_nodes_transfer_is_right(tmp_path: Path) -> None:

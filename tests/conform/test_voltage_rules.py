@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.handmade import CASES, Bench, Sketch, at, every, found, judged
+from conform.handmade import Bench, Sketch, at, every, found
+from conform.in_blocks import judged
 from conform.recorded import recorded, written
 
-from swapcan.conform import Rule
 from swapcan.conform.rules.voltage import RULES
 
 OPEN, PRECHARGE, CLOSED = 0, 1, 2
@@ -40,13 +40,6 @@ def relays(times: list[float], positive: int, negative: int, precharge: int) -> 
 
 def discharged(times: list[float], raw_current: int, raw_limit: int) -> list[Sketch]:
     return at(times, "B2V_ST2", B2V_ST2_Current=raw_current, B2V_ST2_MaxLmt_DisChgCurr=raw_limit)
-
-
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
-def test_it_does_not_matter_where_a_log_is_cut(rule: Rule) -> None:
-    for log, block in (("fails.log", 1), ("fails.log", 7), ("passes.log", 1)):
-        path = CASES / rule.id / log
-        assert judged(path, RULES, block).results == judged(path, RULES).results
 
 
 def run(folder: Path, plan: str, *faults: str, seconds: float) -> dict[str, list[str]]:

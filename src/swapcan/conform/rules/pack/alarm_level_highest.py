@@ -7,11 +7,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Findings, Said, Subject
-from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.pack.alarms import Alarms, AlarmStream, alarm_bits
-from swapcan.conform.rules.pack.runs import Runs
+from swapcan.conform.findings import Said
+from swapcan.conform.rule import Rule, Severity
+from swapcan.conform.rules.pack.alarm_watcher import AlarmWatcher
+from swapcan.conform.rules.pack.alarms import Alarms, alarm_bits
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST0, B2V_ST1
 
@@ -27,30 +26,16 @@ _HIGH = Text(
 )
 
 
-class AlarmLevelHighest(Watcher):
+class AlarmLevelHighest(AlarmWatcher):
     """Compares the level with the alarms of the same frame, and with those of B2V_ST0 around it.
 
     An alarm of one bit has no level: the highest is at least 1 then, and may be any.
     """
 
-    def __init__(self, findings: Findings) -> None:
-        super().__init__(findings)
-        self._stream = AlarmStream()
-        signal = B2V_ST1.FIELDS["fault_levl"].dbc_name
-        self._runs = Runs(findings, Subject(B2V_ST1.SENDER, B2V_ST1.NAME, signal))
+    field = "fault_levl"
 
-    def take(self, chunk: Chunk) -> None:
-        """Judge the frames around which all is known."""
-        self._judge(self._stream.take(chunk))
-
-    def finish(self, end: float) -> None:
-        """Judge the rest."""
-        del end
-        if left := self._stream.finish():
-            self._judge(left)
-        self._runs.finish()
-
-    def _judge(self, alarms: Alarms) -> None:
+    def judge(self, alarms: Alarms) -> None:
+        """Judge frames around which all is known."""
         own, other = alarm_bits(B2V_ST1), alarm_bits(B2V_ST0)
         own_highest, own_flag = own.highest(alarms.own), own.has_flag(alarms.own)
         least = np.maximum(own_highest, other.highest(alarms.all_around))
@@ -59,7 +44,7 @@ class AlarmLevelHighest(Watcher):
         most[own_flag | other.has_flag(alarms.any_around) | ~alarms.known] = _HIGHEST
         wrong = (alarms.level < least) | (alarms.level > most)
         describe = partial(_describe, alarms, least, most)
-        self._runs.take(alarms.time, alarms.order, wrong, describe)
+        self.runs.take(alarms.time, alarms.order, wrong, describe)
 
 
 def _describe(alarms: Alarms, least: NDArray[np.int64], most: NDArray[np.int64], row: int) -> Said:

@@ -7,11 +7,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Findings, Said, Subject
-from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.pack.alarms import Alarms, AlarmStream, alarm_bits
-from swapcan.conform.rules.pack.runs import Runs
+from swapcan.conform.findings import Said
+from swapcan.conform.rule import Rule, Severity
+from swapcan.conform.rules.pack.alarm_watcher import AlarmWatcher
+from swapcan.conform.rules.pack.alarms import Alarms, alarm_bits
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST0, B2V_ST1
 
@@ -21,35 +20,21 @@ _MORE = Text(
 )
 
 
-class FaultCount(Watcher):
+class FaultCount(AlarmWatcher):
     """Compares the number with the alarms of the same frame and of any B2V_ST0 around it.
 
     It counts those faults that GB/T 32960.3 lists, which are not told apart here: fewer are right.
     """
 
-    def __init__(self, findings: Findings) -> None:
-        super().__init__(findings)
-        self._stream = AlarmStream()
-        signal = B2V_ST1.FIELDS["gbt32960_flt_num"].dbc_name
-        self._runs = Runs(findings, Subject(B2V_ST1.SENDER, B2V_ST1.NAME, signal))
+    field = "gbt32960_flt_num"
 
-    def take(self, chunk: Chunk) -> None:
-        """Judge the frames around which all is known."""
-        self._judge(self._stream.take(chunk))
-
-    def finish(self, end: float) -> None:
-        """Judge the rest."""
-        del end
-        if left := self._stream.finish():
-            self._judge(left)
-        self._runs.finish()
-
-    def _judge(self, alarms: Alarms) -> None:
+    def judge(self, alarms: Alarms) -> None:
+        """Judge frames around which all is known."""
         own, other = alarm_bits(B2V_ST1), alarm_bits(B2V_ST0)
         known = alarms.known
         number = alarms.number[known]
         raised = (own.count(alarms.own) + other.count(alarms.any_around))[known]
-        self._runs.take(
+        self.runs.take(
             alarms.time[known],
             alarms.order[known],
             number > raised,
