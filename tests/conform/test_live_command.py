@@ -72,7 +72,7 @@ def test_a_bus_is_recorded_for_a_while_and_the_record_judged(
 def test_a_record_that_is_not_kept_is_named_like_the_bus_and_gone_afterwards(
     channel: str, scratch: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(channel, "--duration", "300ms", "--only", "checksum", "--json") == 0
+    assert run(channel, "--duration", "1s", "--only", "checksum", "--json") == 0
     (log,) = json.loads(capsys.readouterr().out)["logs"]
     assert log["log"] == f"virtual {channel}"
     assert [each["channel"] for each in log["load"]] == [channel]
