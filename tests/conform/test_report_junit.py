@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import pytest
 from conform.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
-from junitparser import Failure, JUnitXml, Skipped, TestCase, TestSuite
+from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 
 from swapcan.conform import Judgement
 from swapcan.conform.report import to_junit
@@ -28,7 +29,7 @@ def cases(judgement: Judgement, *, strict: bool = False) -> dict[str, TestCase]:
     assert suite.tests == len(found)
     assert suite.failures == sum(isinstance(each, Failure) for each in results)
     assert suite.skipped == sum(isinstance(each, Skipped) for each in results)
-    assert suite.errors == 0
+    assert suite.errors == sum(isinstance(each, Error) for each in results)
     return {case.name: case for case in found}
 
 
@@ -41,7 +42,8 @@ def test_every_log_is_a_suite_and_every_rule_a_test() -> None:
     found = suites(PLAIN, GOOD, EMPTY)
     assert [suite.name for suite in found] == ["drive.blf", "good.log", "empty.log"]
     names = [(case.classname, case.name) for case in found[0]]
-    assert names == [
+    assert names[0] == ("swapcan.conform", "judged")
+    assert names[1:] == [
         (f"swapcan.conform.{each.rule.severity.name.lower()}", each.rule.id)
         for each in PLAIN.results
     ]
@@ -49,6 +51,7 @@ def test_every_log_is_a_suite_and_every_rule_a_test() -> None:
 
 def test_only_broken_demands_fail_unless_it_is_strict() -> None:
     plain = {
+        "judged": [Error],  # it is damaged
         "answer-in-time": [Failure],
         "period-mean": [],
         "spare-bits": [],
@@ -57,6 +60,15 @@ def test_only_broken_demands_fail_unless_it_is_strict() -> None:
     }
     assert outcomes(PLAIN) == plain
     assert outcomes(PLAIN, strict=True) == plain | {"period-mean": [Failure]}
+
+
+def test_what_could_not_be_judged_is_an_error() -> None:
+    assert outcomes(EMPTY)["judged"] == [Error]
+    (error,) = cases(EMPTY)["judged"].result
+    assert error.type == "not_judged"
+    assert outcomes(GOOD)["judged"] == []
+    damaged = replace(GOOD, damage=("good.log: damaged at line 3",))
+    assert outcomes(damaged)["judged"] == [Error]
 
 
 def test_a_failure_lists_its_occurrences_and_counts_those_that_are_not_kept() -> None:
@@ -87,8 +99,8 @@ def test_elements_stand_in_the_order_that_the_schema_of_jenkins_asks_for() -> No
     root = ET.fromstring(to_junit([PLAIN], "en"))
     (suite,) = root
     tags = [child.tag for child in suite]
-    assert tags == ["properties", *["testcase"] * len(PLAIN.results)]
-    allowed = {"skipped", "failure", "system-out"}
+    assert tags == ["properties", *["testcase"] * (1 + len(PLAIN.results))]
+    allowed = {"skipped", "error", "failure", "system-out"}
     assert all({child.tag for child in case} <= allowed for case in suite.iter("testcase"))
     assert {"name", "tests", "failures", "errors", "skipped", "time"} == set(suite.attrib)
 
@@ -96,7 +108,7 @@ def test_elements_stand_in_the_order_that_the_schema_of_jenkins_asks_for() -> No
 @pytest.mark.parametrize("text", HOSTILE)
 def test_any_text_arrives_with_what_can_be_seen_of_it(text: str) -> None:
     (suite,) = suites(hostile(text))
-    (case,) = suite
+    _, case = suite
     (failure,) = case.result
     shown = failure.text or ""
     assert len(shown.splitlines()) == 1

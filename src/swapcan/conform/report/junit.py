@@ -1,4 +1,4 @@
-"""Judgements as JUnit XML: a suite per log, a test per rule."""
+"""Judgements as JUnit XML: a suite per log, a test per rule, and one for whether it was judged."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Occurrence
-from swapcan.conform.judgement import Judgement, RuleResult, Status
+from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
 from swapcan.conform.report import facts, figures, words
 from swapcan.conform.report.visible import visible
 from swapcan.conform.rule import Severity
@@ -20,7 +20,8 @@ _SHOWN = 100
 def to_junit(judgements: Sequence[Judgement], language: Language, *, strict: bool = False) -> str:
     """The XML text.
 
-    A rule that judged nothing is skipped. What is found for other rules than demands stands in
+    A rule that judged nothing is skipped; where the log could not be judged, or not all of it, the
+    first test is an error. What is found for other rules than demands stands in
     the output of their tests, and their number in the properties of the suite.
 
     Parameters
@@ -45,12 +46,13 @@ def _suite(judgement: Judgement, language: Language, failing: Severity) -> ET.El
     properties = ET.SubElement(suite, "properties")
     for name, value in _properties(judgement, language):
         ET.SubElement(properties, "property", {"name": name, "value": visible(value)})
-    cases = [_case(result, language, failing) for result in judgement.results]
+    cases = [_judged(judgement, language)]
+    cases += [_case(result, language, failing) for result in judgement.results]
     suite.extend(cases)
     counts = {
         "tests": len(cases),
         "failures": sum(case.find("failure") is not None for case in cases),
-        "errors": 0,
+        "errors": sum(case.find("error") is not None for case in cases),
         "skipped": sum(case.find("skipped") is not None for case in cases),
     }
     for name, number in counts.items():
@@ -73,6 +75,17 @@ def _properties(judgement: Judgement, language: Language) -> list[tuple[str, str
         for result in facts.failed(judgement, severity):
             found.append((f"{severity.name.lower()}.{result.rule.id}", str(result.count)))
     return found
+
+
+def _judged(judgement: Judgement, language: Language) -> ET.Element:
+    case = ET.Element("testcase", {"classname": "swapcan.conform", "name": "judged", "time": "0"})
+    problems = list(judgement.damage)
+    if judgement.verdict is Verdict.NOT_JUDGED:
+        problems.append(facts.why(judgement, language))
+    if problems:
+        message = visible("; ".join(problems))
+        ET.SubElement(case, "error", {"message": message, "type": "not_judged"})
+    return case
 
 
 def _case(result: RuleResult, language: Language, failing: Severity) -> ET.Element:
