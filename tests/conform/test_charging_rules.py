@@ -18,9 +18,9 @@ def bench(tmp_path: Path) -> Bench:
     return Bench(tmp_path, RULES)
 
 
-def charging(end: float, high_voltage: int = 0) -> list[Sketch]:
+def charging(end: float, high_voltage: int = 0, *, begin: float = 0.0) -> list[Sketch]:
     return at(
-        every(0.1, 0.0, end),
+        every(0.1, begin, end),
         "B2V_ST1",
         B2V_ST1_BMS=high_voltage,
         B2V_ST1_ChgSt=1,
@@ -51,11 +51,20 @@ def test_a_wrong_sign_is_found_without_a_charger_in_the_log(bench: Bench) -> Non
 
 
 def test_where_the_truck_may_draw_only_a_strong_charger_tells_the_sign(bench: Bench) -> None:
-    draws = charging(3, high_voltage=2), current(3, 30)
-    strong = charger(3, C2B_N_CurrentOutput=800)
+    idle = at(every(0.1, 0.0, 0.9), "B2V_ST1", B2V_ST1_BMS=2)
+    draws = idle, charging(4, high_voltage=2, begin=1.0), current(4, 30)
+    strong = charger(4, C2B_N_CurrentOutput=900)
     assert "charge-current-sign" not in bench.finds(*draws)
-    assert "charge-current-sign" not in bench.finds(*draws, charger(3, C2B_N_CurrentOutput=300))
+    assert "charge-current-sign" not in bench.finds(*draws, charger(4, C2B_N_CurrentOutput=700))
     assert bench.finds(*draws, strong)["charge-current-sign"] != []
+
+
+def test_what_the_truck_draws_is_not_known_where_a_log_begins_while_it_charges(
+    bench: Bench,
+) -> None:
+    strong = charger(4, C2B_N_CurrentOutput=900)
+    found = bench.finds(charging(4, high_voltage=2), current(4, 30), strong)
+    assert "charge-current-sign" not in found
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
@@ -24,9 +27,9 @@ _LOAD = Tolerance(
     value=50.0,
     unit="A",
     text=Text(
-        "what the truck may draw while it charges; where high voltage is closed the charger has "
-        "to give more for a judgement",
-        "充电时整车附件可能消耗的电流;高压闭合时,充电机输出超过该值才予判断",
+        "what the truck may draw more while it charges than before; where high voltage is closed "
+        "the charger has to give more than both for a judgement",
+        "充电期间整车附件比充电前多消耗的电流;高压闭合时,充电机输出超过两者之和才予判断",
     ),
 )
 _SECONDS = Tolerance(
@@ -42,6 +45,8 @@ _SECONDS = Tolerance(
 _CHARGER_COUNTS = 0.75
 """s for which a frame of the charger counts: shorter than what is allowed, as it may be gone."""
 
+Amperes = NDArray[np.float64]
+
 _SUBJECT = Subject("BMU", "B2V_ST2", "B2V_ST2_Current")
 
 _POSITIVE = Text(
@@ -56,6 +61,7 @@ class ChargeCurrentSign(LastingWatcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._current, self._load = findings.limit(_CURRENT), findings.limit(_LOAD)
+        self._drawn = math.nan  # A, before the pack charged
         self._positive = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST2)
 
     def take(self, chunk: Chunk) -> None:
@@ -66,14 +72,28 @@ class ChargeCurrentSign(LastingWatcher):
         current = series.value("current")
         given = np.where(charger.known, charger.value("current_output"), -1.0)
         can_draw = state.raw("bms") != BmsState.HV_OPEN
-        judged = state.is_code("chg_st", ChargeState.CHARGING) & ~np.isnan(current)
-        judged &= np.where(can_draw, given > self._load, ~charger.known | (given > self._current))
+        charging = state.is_code("chg_st", ChargeState.CHARGING)
+        drawn = self._before(current[series.first :], (state.known & ~charging)[series.first :])
+        drawn = np.append(np.zeros(series.first), drawn)  # the row of before is judged already
+        enough = given > np.fmax(drawn, 0.0) + self._load
+        alone = ~charger.known | (given > self._current)
+        judged = charging & ~np.isnan(current)
+        judged &= np.where(can_draw, enough & ~np.isnan(drawn), alone)
 
         def describe(row: int) -> Said:
             return _POSITIVE, {"current": float(current[row])}
 
         excess = current - self._current
         self._positive.take(series, judged, excess > 0, describe, excess)
+
+    def _before(self, current: Amperes, idle: NDArray[np.bool_]) -> Amperes:
+        """What flowed last before the pack charged, for each row; NaN where that is not known."""
+        rows = np.where(idle & ~np.isnan(current), np.arange(len(current)), -1)
+        rows = np.maximum.accumulate(rows)
+        drawn = np.where(rows >= 0, current[rows], self._drawn)
+        if len(drawn):
+            self._drawn = float(drawn[-1])
+        return drawn
 
 
 RULE = Rule(
