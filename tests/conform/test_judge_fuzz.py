@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -109,3 +110,20 @@ def test_what_is_spoilt_here_and_there_is_found_the_same_wherever_it_is_cut(seed
     assert essence(judged(block, *cuts)) == essence(whole)
     assert whole.result("checksum").count > 0
     assert "fuzz.log" in reported(whole)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_log_that_conforms_may_begin_and_end_anywhere_and_jitter(seed: int) -> None:
+    block = block_of(recorded(PLAN, seconds=10.0))
+    chance = np.random.default_rng(seed)
+    time = block.timestamp + np.clip(np.abs(chance.normal(0, 0.003, len(block))), 0, 0.02)
+    for number in np.unique(block.frame_id):  # frames of one identifier do not overtake each other
+        own = block.frame_id == number
+        time[own] = np.maximum.accumulate(time[own])
+    rows = np.argsort(time, kind="stable")
+    begin = chance.uniform(0, 5)
+    end = begin + chance.uniform(2, 5)
+    rows = rows[(time[rows] >= begin) & (time[rows] <= end)]
+    jittering = replace(block, timestamp=time)
+    judgement = judged(rows_of(jittering, rows))
+    assert {result.rule.id for result in judgement.results if result.count} == set()

@@ -205,6 +205,8 @@ class Bmu(Participant):
         load = charge = plugged = None
         if self.line:
             load, charge, plugged = self.line.load, self.line.charge, self.line.plugged
+        if plugged is False:
+            charger = None  # what it said last no longer counts
         if charge is None:
             charge = _number(charger, "current_output")
         return Surroundings(
