@@ -107,7 +107,7 @@ def test_tolerances_can_be_others(tmp_path: Path) -> None:
 
 
 def test_answers_are_not_judged_where_a_request_may_be_older_than_the_log(tmp_path: Path) -> None:
-    answers = [f"{0.1 * number:.1f} {INFO_1}" for number in range(99)]
+    answers = [f"{0.1 * number:.1f} {INFO_1}" for number in range(300)]
     log = candump(tmp_path / "a.log", f"0 {FROM_VCU}", *answers)
     assert result_of(UNASKED, log).status is Status.NOT_JUDGED
 

@@ -40,7 +40,8 @@ class ConformError(SwapcanError, ValueError):
 class Judge:
     """Takes the frames of one log in their order.
 
-    Each message is judged on the channel on which it is seen first.
+    Each message is judged on the channel on which it is seen first. Times are taken to go forward:
+    where they go back, as when a clock was set, nothing is judged across that.
 
     Parameters
     ----------

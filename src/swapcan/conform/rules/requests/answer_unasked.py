@@ -33,9 +33,9 @@ _BEGIN = Tolerance(
     value=10.0,
     unit="s",
     text=Text(
-        "How long a log may go on without a frame of the request before it counts as not made; "
-        "a log can begin while a request is in force",
-        "记录中多长时间没有请求报文即视为没有请求;记录可能在请求有效期间开始",
+        "How long a log must go on with neither the request nor the answer before the request "
+        "counts as not made; a log can begin while a request is in force",
+        "记录开始后多长时间既无请求也无应答,才视为没有请求;记录可能在请求有效期间开始",
     ),
 )
 
@@ -74,6 +74,7 @@ class _Asking:
         self._last: Spell | None = None
         self._asker: Moment | None = None  # the first frame of the node that asks
         self._first: Moment | None = None  # the first frame of the request's message
+        self._answered: dict[type[Message], float] = {}  # when each answer came first
 
     def take(self, chunk: Chunk) -> None:
         message = self._request.field.message
@@ -87,6 +88,8 @@ class _Asking:
         self._last = spells[-1] if spells else None
         for answer in self._request.answers:
             series = chunk.frames(answer)
+            if series.fresh:
+                self._answered.setdefault(answer, float(series.time[series.first]))
             if series.fresh and self._asker:
                 self._judge(series, self._asker, spells)
 
@@ -114,7 +117,9 @@ class _Asking:
 
     def _known(self, series: Series) -> NDArray[np.bool_]:
         """Whether a frame comes so late that a request must have been seen."""
-        known: NDArray[np.bool_] = series.time > self._begin
+        # What came from the begin on may have been asked for before the log.
+        is_new = self._answered[series.message] > self._begin
+        known: NDArray[np.bool_] = np.full(len(series), is_new)
         if self._first:
             # The first frame may have withdrawn a request from before the log.
             after = series.order > self._first.order
