@@ -115,7 +115,6 @@ function isPainted(canvas) {
 }
 
 async function probe() {
-  window.requestAnimationFrame = (draw) => setTimeout(draw);  // nothing is shown on a screen
   HTMLElement.prototype.setPointerCapture = () => {};  // there is no real pointer to capture
   await drawn();
   await read("value", 0, 0.25, 0.5);
@@ -143,6 +142,9 @@ async function probe() {
 addEventListener("load", probe);
 </script>
 """
+
+FRAMES = "<script>window.requestAnimationFrame = (draw) => setTimeout(draw);</script>"
+"""Before all else: without a screen a frame may never come, least of all on a busy machine."""
 
 
 def in_chromium(page: Path, *, width: int) -> tuple[str, str]:
@@ -175,7 +177,9 @@ def in_chromium(page: Path, *, width: int) -> tuple[str, str]:
 @pytest.mark.parametrize("width", [400, 1200])
 def test_a_browser_draws_the_page_and_reads_values_off(width: int, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
-    page.write_text(to_html(sample("drive")).replace("</body>", f"{PROBE}</body>"))
+    probed = to_html(sample("drive")).replace("</body>", f"{PROBE}</body>")
+    assert "<head>" in probed
+    page.write_text(probed.replace("<head>", f"<head>{FRAMES}", 1))
     dom, console = in_chromium(page, width=width)
     assert console == ""
     found = re.search(r'<pre id="result">(.*?)</pre>', dom)
