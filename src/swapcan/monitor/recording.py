@@ -37,6 +37,7 @@ class Recording:
         self.path = path
         self.frames = 0
         """How many were written."""
+        self._names_channels = path.suffix.lower() == ".log"
         self._thread_error: BaseException | None = None
         self._hook = threading.excepthook
         before = set(threading.enumerate())
@@ -49,7 +50,7 @@ class Recording:
     def write(self, frame: can.Message) -> None:
         """Write a frame; raises `RecordingError`."""
         try:
-            self._writer.on_message_received(_writable(frame))
+            self._writer.on_message_received(frame if self._names_channels else _numbered(frame))
         except _FAILURES as error:
             raise self._error(error) from None
         if self._thread_error:
@@ -109,7 +110,7 @@ def _open(path: Path) -> MessageWriter:
         raise RecordingError(f"{path}: {problem}") from None
 
 
-def _writable(frame: can.Message) -> can.Message:
+def _numbered(frame: can.Message) -> can.Message:
     """The frame, without a channel that ends in too long a number, such as a serial number."""
     number = channel2int(frame.channel)
     if number is None or number < _CHANNELS:
