@@ -32,7 +32,8 @@ def _message(name: str) -> Message:
     return database().get_message_by_name(name)
 
 
-def _sealed(name: str, data: bytes) -> bytes:
+def sealed(name: str, data: bytes) -> bytes:
+    """The payload of a message with its checksum, where it has one that the standard states."""
     return bytes([reduce(xor, data[1:])]) + data[1:] if name in _WITH_XOR else data
 
 
@@ -68,7 +69,7 @@ def signals_where(
                 assert raw.keys() <= values.keys()
                 if only.items() <= values.items():
                     data = message.encode(values | raw, scaling=False, strict=False)
-                    result.append(with_data(frame, _sealed(name, data)))
+                    result.append(with_data(frame, sealed(name, data)))
                     done = True
                     continue
             result.append(frame)

@@ -4,22 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from functools import reduce
-from operator import xor
 from pathlib import Path
 
 import can
-import cantools
-from cantools.database.can import Database
+from conform.altered import database, sealed
 from conform.in_blocks import judged
 from conform.recorded import written
 
 from swapcan.conform import Judgement, Rule
-from swapcan.database import dbc_text
-
-_LOADED = cantools.database.load_string(dbc_text(), "dbc")
-assert isinstance(_LOADED, Database)
-_DATABASE = _LOADED
 
 CASES = Path(__file__).with_name("cases")
 
@@ -42,14 +34,14 @@ def frames_of(*sketches: Iterable[Sketch], stuck: bool = False) -> list[can.Mess
     frames: list[can.Message] = []
     counts: Counter[str] = Counter()
     for time, name, signals in sorted((each for some in sketches for each in some), key=_time):
-        message = _DATABASE.get_message_by_name(name)
+        message = database().get_message_by_name(name)
         raw = {signal.name: 0 for signal in message.signals} | dict(signals)
         if name in ("B2V_ST1", "V2B_CMD"):
             raw[f"{name}_ALIV"] = 0 if stuck else counts[name] % 15
             counts[name] += 1
         data = message.encode(raw, scaling=False, strict=False)
         if f"{name}_ALIV" in raw:
-            data = bytes([reduce(xor, data[1:])]) + data[1:]
+            data = sealed(name, data)
         frames.append(
             can.Message(timestamp=time, arbitration_id=message.frame_id, data=data, channel="can0")
         )

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+import can
+from conform.recorded import block_of
+
 from swapcan.conform import Judge, Judgement, Rule, RuleResult
 from swapcan.logs.read import open_log
 
@@ -35,6 +38,18 @@ def result_of(
 ) -> RuleResult:
     """The same of one rule."""
     return judged(log, [rule], size, nodes=nodes).result(rule.id)
+
+
+def judged_by_all(frames: Iterable[can.Message]) -> Judgement:
+    """What all rules say of frames."""
+    judge = Judge()
+    judge.take(block_of(frames))
+    return judge.finish()
+
+
+def broken(judgement: Judgement) -> set[str]:
+    """The rules that found something."""
+    return {result.rule.id for result in judgement.results if result.count}
 
 
 def essence(result: RuleResult) -> tuple[object, ...]:

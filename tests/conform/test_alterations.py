@@ -4,35 +4,26 @@ from __future__ import annotations
 
 import pytest
 from conform.alterations import ALTERATIONS, CSCS, PLAN, SECONDS
-from conform.altered import Frames
-from conform.recorded import block_of, recorded
+from conform.in_blocks import broken, judged_by_all
+from conform.recorded import recorded
 
-from swapcan.conform import RULES, Judge, Judgement
+from swapcan.conform import RULES
 
 OVER_LONGER_TIMES = {"energy-follows-power", "soc-follows-current"}
 """Rules that judge minutes only; their case folders show what they find."""
 
 
-def judged(frames: Frames) -> Judgement:
-    """What all rules say."""
-    judge = Judge()
-    judge.take(block_of(frames))
-    return judge.finish()
-
-
-def found(judgement: Judgement) -> set[str]:
-    """The rules that found something."""
-    return {result.rule.id for result in judgement.results if result.count}
-
-
 def test_nothing_is_found_in_what_is_not_altered() -> None:
-    assert found(judged(recorded(PLAN, seconds=SECONDS, cscs=CSCS))) == set()
+    assert broken(judged_by_all(recorded(PLAN, seconds=SECONDS, cscs=CSCS))) == set()
 
 
 @pytest.mark.parametrize("rule", ALTERATIONS)
 def test_an_alteration_is_found_by_its_rule_and_by_no_unrelated_one(rule: str) -> None:
     alter, others = ALTERATIONS[rule]
-    assert found(judged(alter(recorded(PLAN, seconds=SECONDS, cscs=CSCS)))) == {rule, *others}
+    assert broken(judged_by_all(alter(recorded(PLAN, seconds=SECONDS, cscs=CSCS)))) == {
+        rule,
+        *others,
+    }
 
 
 def test_every_rule_has_its_alteration() -> None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conform.recorded import block_of, recorded
+from conform.in_blocks import broken, judged_by_all
+from conform.recorded import recorded
 
-from swapcan.conform import RULES, Judge, Judgement, Severity, Status, Verdict
+from swapcan.conform import RULES, Judgement, Severity, Status, Verdict
 from swapcan.simulate import FAULTS, planned_fault
 
 DRIVE = "hv_on@0.5s, ask@0.7s, drive@1.5s+2s, hv_off@7s"
@@ -87,14 +88,7 @@ _TELLING = {"alarm-raised", "charger-fault-told", "connector-warning-told"}
 
 def judged(plan: str, *faults: str, seconds: float, **options: Any) -> Judgement:
     """What all rules say of a run."""
-    judge = Judge()
-    judge.take(block_of(recorded(plan, *faults, seconds=seconds, **options)))
-    return judge.finish()
-
-
-def found(judgement: Judgement) -> set[str]:
-    """The rules that found something."""
-    return {result.rule.id for result in judgement.results if result.count}
+    return judged_by_all(recorded(plan, *faults, seconds=seconds, **options))
 
 
 def blamed(judgement: Judgement) -> set[str]:
@@ -110,7 +104,7 @@ def blamed(judgement: Judgement) -> set[str]:
 def test_a_fault_is_found_by_its_rules_and_by_no_other(fault: str) -> None:
     plan = CHARGE if "CHG" in planned_fault(fault).nodes else DRIVE
     judgement = judged(plan, fault, seconds=LONGER.get(fault, SECONDS))
-    assert found(judgement) == FOUND[fault]
+    assert broken(judgement) == FOUND[fault]
     assert blamed(judgement) <= set(planned_fault(fault).nodes)
     told = {each.subject.signal for rule in _TELLING for each in judgement.result(rule).occurrences}
     assert told == SIGNALS.get(fault, set())
@@ -146,4 +140,4 @@ SCENARIOS: list[tuple[str, dict[str, Any]]] = [
 def test_the_simulated_nodes_conform_in_every_scenario(plan: str, options: dict[str, Any]) -> None:
     judgement = judged(plan, seconds=13.0, **options)
     assert judgement.verdict is Verdict.CONFORMS
-    assert found(judgement) == set()
+    assert broken(judgement) == set()

@@ -14,6 +14,7 @@ from swapcan.conform.before import Before
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.judgement import Judgement, RuleResult
+from swapcan.conform.measure.homes import Homes, is_judged
 from swapcan.conform.measure.load import LoadMeter
 from swapcan.conform.measure.periods import PeriodMeter
 from swapcan.conform.registry import RULES
@@ -25,12 +26,10 @@ from swapcan.logs.cells.readings import CELLS, PROBES
 from swapcan.logs.checks import checksums_right, has_checksum, rows_where
 from swapcan.logs.columns import MessageColumns
 from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock, FrameFlag
+from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import protocol_of
 from swapcan.message import Message
-
-_NOT_CLASSIC = np.uint8(FrameFlag.FD | FrameFlag.REMOTE | FrameFlag.ERROR)
 
 
 class ConformError(SwapcanError, ValueError):
@@ -76,7 +75,7 @@ class Judge:
         self._cells = _Cells()
         self._load, self._periods = LoadMeter(), PeriodMeter()
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
-        self._homes: dict[str, int | str | None] = {}
+        self._homes = Homes()
         self._begin: float | None = None
         self._end = 0.0
         self._orders = 0
@@ -130,7 +129,7 @@ class Judge:
             sound[message] = self._series(message, columns, begin, sound=True)
             self._counts[message.NAME] += frames[message].fresh
         self._counts[""] += len(block) - sum(each.fresh for each in frames.values())
-        cycles = cache(lambda: self._cells.cycles(block, self._homes))
+        cycles = cache(lambda: self._cells.cycles(block, self._homes.channels))
         return Chunk(block, begin, self._orders, self._end, frames, sound, cycles)
 
     def _series(
@@ -144,14 +143,11 @@ class Judge:
     def _own(self, message: type[Message], columns: MessageColumns) -> MessageColumns:
         """The frames that are what the standard says of them, on the channel of the first."""
         block, rows = columns.block, columns.rows
-        good = block.length[rows] == message.LENGTH
-        good &= (block.flags[rows] & _NOT_CLASSIC) == 0
-        channels = columns.channel
-        if message.NAME not in self._homes and good.any():
-            self._homes[message.NAME] = block.channels[channels[good.argmax()]]
+        good = is_judged(message, block, rows)
+        if message.NAME not in self._homes.channels:
+            self._homes.find(message, block, rows[good])
         if len(block.channels) > 1:
-            names = [each == self._homes.get(message.NAME) for each in block.channels]
-            good &= np.array(names)[channels]
+            good &= self._homes.at_home(message, block, rows)
         return columns if good.all() else rows_where(columns, good)
 
 

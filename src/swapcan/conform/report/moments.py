@@ -11,18 +11,20 @@ from numpy.typing import NDArray
 
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement
+from swapcan.conform.measure.homes import Homes, is_judged
 from swapcan.conform.report.facts import failed, other_worst
-from swapcan.conform.report.homes import Homes
 from swapcan.conform.report.sources import Source, sources_of
 from swapcan.conform.report.thinned import Points
 from swapcan.conform.rule import Severity
 from swapcan.logs.checks import rows_where
 from swapcan.logs.columns import Column, MessageColumns
 from swapcan.logs.decode import Decoder
+from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import protocol_of
 from swapcan.logs.read import open_log
 from swapcan.logs.read.blocks import rows_of
+from swapcan.message import Message
 
 _LONGEST = 30.0
 """Seconds of an occurrence that are shown; what lasts longer is cut."""
@@ -191,23 +193,40 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
         reserved=protocol_of().reserved,
         wanted=_wanted(sources),
     )
-    homes = Homes(source.message for source in sources)
+    messages = {source.message.NAME: source.message for source in sources}
+    homes = Homes()
     spans = _merged((each.begin, each.end) for each in opened)
     with open_log(path) as log:
         for block in log:
             time = block.timestamp - judgement.begin
-            homes.look(block, time >= 0)
+            _look(homes, messages.values(), block, time >= 0)
             shown = np.zeros(len(block), np.bool_)
             for begin, end in spans:
                 shown |= (time >= begin) & (time <= end)
             if shown.any():
                 part = rows_of(block, np.flatnonzero(shown))
                 for columns in decoder.decode(part).messages.values():
-                    own = rows_where(columns, homes.own(columns))
+                    message = messages[columns.name]
+                    kept = is_judged(message, part, columns.rows)
+                    own = rows_where(columns, kept & homes.at_home(message, part, columns.rows))
                     for each in opened:
                         each.take(own, own.timestamp - judgement.begin)
             elif (time > spans[-1][1]).all():
                 break
+
+
+def _look(
+    homes: Homes,
+    messages: Iterable[type[Message]],
+    block: FrameBlock,
+    counts: NDArray[np.bool_],
+) -> None:
+    """Look for the channels that are not known yet; only frames that count were judged."""
+    for message in messages:
+        if message.NAME not in homes.channels:
+            named = counts & (block.frame_id == message.FRAME_ID)
+            rows = np.flatnonzero(named & is_judged(message, block, slice(None)))
+            homes.find(message, block, rows)
 
 
 def _wanted(sources: Iterable[Source]) -> dict[str, list[str]]:

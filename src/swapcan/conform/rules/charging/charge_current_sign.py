@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.measure.beside import Beside
 from swapcan.conform.measure.lasting import LastingWatcher
+from swapcan.conform.measure.since import last
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
@@ -45,8 +45,6 @@ _SECONDS = Tolerance(
 _CHARGER_COUNTS = 0.75
 """s for which a frame of the charger counts: shorter than what is allowed, as it may be gone."""
 
-Amperes = NDArray[np.float64]
-
 _SUBJECT = Subject("BMU", "B2V_ST2", "B2V_ST2_Current")
 
 _POSITIVE = Text(
@@ -73,8 +71,11 @@ class ChargeCurrentSign(LastingWatcher):
         given = np.where(charger.known, charger.value("current_output"), -1.0)
         can_draw = state.raw("bms") != BmsState.HV_OPEN
         charging = state.is_code("chg_st", ChargeState.CHARGING)
-        drawn = self._before(current[series.first :], (state.known & ~charging)[series.first :])
-        drawn = np.append(np.zeros(series.first), drawn)  # the row of before is judged already
+        idle = state.known & ~charging & ~np.isnan(current)
+        idle[: series.first] = False  # what stands beside the row of before means nothing
+        drawn = last(series, idle, current, self._drawn)
+        if series.fresh:
+            self._drawn = float(drawn[-1])
         enough = given > np.fmax(drawn, 0.0) + self._load
         alone = ~charger.known | (given > self._current)
         judged = charging & ~np.isnan(current)
@@ -85,15 +86,6 @@ class ChargeCurrentSign(LastingWatcher):
 
         excess = current - self._current
         self._positive.take(series, judged, excess > 0, describe, excess)
-
-    def _before(self, current: Amperes, idle: NDArray[np.bool_]) -> Amperes:
-        """What flowed last before the pack charged, for each row; NaN where that is not known."""
-        rows = np.where(idle & ~np.isnan(current), np.arange(len(current)), -1)
-        rows = np.maximum.accumulate(rows)
-        drawn = np.where(rows >= 0, current[rows], self._drawn)
-        if len(drawn):
-            self._drawn = float(drawn[-1])
-        return drawn
 
 
 RULE = Rule(
