@@ -18,6 +18,7 @@ def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:
         (behaviour.checksums, "signal", signals),
         (behaviour.counters, "signal", signals),
         (behaviour.requests, "signal", signals),
+        (behaviour.acts, "signal", signals),
         (behaviour.requests, "answers", names),
         (behaviour.timing, "messages", names),
         (behaviour.transfers, "messages", names),

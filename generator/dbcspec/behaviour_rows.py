@@ -1,4 +1,4 @@
-"""The rows of behaviour.yaml: checksums, counters, transfers, requests, timing."""
+"""The rows of behaviour.yaml: checksums, counters, transfers, requests, codes that act, timing."""
 
 from __future__ import annotations
 
@@ -67,6 +67,23 @@ class RequestRow(Record):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ActsRow(Record):
+    """Codes of a signal that make something move, and the code that does not."""
+
+    IDENTITY: ClassVar[str] = "signal"
+
+    signal: str = key(NAME, "the signal that has the codes", required=True)
+    codes: tuple[int, ...] = key(list_of(INTEGER), "the codes that act", required=True)
+    safe: int = key(INTEGER, "the code that ends what they begin", required=True)
+    kind: str = key(
+        one_of("command", "report"),
+        "whether they make the receiver act, or only say that something is on",
+        default="command",
+    )
+    cite: str = key(TEXT, "where the standard says so", default="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TimingRow(Record):
     """When messages are sent."""
 
@@ -93,5 +110,6 @@ class Behaviour(Record):
     counters: tuple[CounterRow, ...] = key(list_of(nested(CounterRow)), "counters", default=())
     transfers: tuple[TransferRow, ...] = key(list_of(nested(TransferRow)), "transfers", default=())
     requests: tuple[RequestRow, ...] = key(list_of(nested(RequestRow)), "requests", default=())
+    acts: tuple[ActsRow, ...] = key(list_of(nested(ActsRow)), "codes that act", default=())
     timing: tuple[TimingRow, ...] = key(list_of(nested(TimingRow)), "conditions", default=())
     padding: Padding | None = key(nested(Padding), "bits without a signal")

@@ -48,6 +48,7 @@ class Aspect(Enum):
     PYTHON_NAMES = "field names of generated code"
     PROTECTION = "checksums and counters"
     TRANSFERS = "transfers and requests"
+    ACTS = "codes that act"
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +70,20 @@ class ValueTable:
     def labels(self, *, english: bool = True) -> dict[int, str]:
         """Raw value to label."""
         return {code.value: code.english if english else code.label for code in self.codes}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActingCodes:
+    """Codes of a signal at which its receiver acts, and ``safe``, the code that ends that.
+
+    To act is to close a contactor, to charge, heat, cool or pump. Codes with ``reports`` command
+    nothing, but say that something is on. ``reference`` is the clause.
+    """
+
+    codes: tuple[int, ...]
+    safe: int
+    reports: bool = False
+    reference: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,6 +111,7 @@ class Signal:
     invalid_code: int | None = None
     abnormal_code: int | None = None
     start_value: int = 0
+    acting: ActingCodes | None = None
     receivers: tuple[str, ...] = ()
     is_selector: bool = False
     multiplexer: str = ""
@@ -104,6 +120,12 @@ class Signal:
     reference: str = ""
     errata: tuple[str, ...] = ()
     where: Location = field(default=NOWHERE, compare=False)
+
+    @property
+    def must_be_given(self) -> bool:
+        """Whether what stands for no value, the invalid code or else 0, is a code that acts."""
+        nothing = 0 if self.invalid_code is None else self.invalid_code
+        return self.acting is not None and nothing in self.acting.codes
 
     @property
     def raw_limits(self) -> tuple[int, int]:

@@ -51,6 +51,15 @@ class _Resolver:
             for timing in spec.behaviour.timing
             for message in timing.messages
         }
+        self._acting = {
+            row.signal: model.ActingCodes(
+                codes=tuple(sorted(row.codes)),
+                safe=row.safe,
+                reports=row.kind == "report",
+                reference=row.cite,
+            )
+            for row in spec.behaviour.acts
+        }
         self._units = spec.standard.units
 
     def protocol(self, name: str) -> model.Protocol:
@@ -176,7 +185,10 @@ class _Resolver:
         value_table = self._value_tables.of(row)
         standard = self._spec.standard
         invalid = _code_labelled(row.labels, standard.invalid_labels)
+        acting = self._acting.get(field.name)
         usual = 0 if invalid is None or filled_in else invalid
+        if acting and usual in acting.codes:
+            usual = acting.safe
         unit = self._given(row, "unit", row.unit, "")
         marks = dict.fromkeys(
             mark for record in (field, *(row for _, row in rows)) for mark in record.marks
@@ -201,6 +213,7 @@ class _Resolver:
             invalid_code=invalid,
             abnormal_code=_code_labelled(row.labels, standard.abnormal_labels),
             start_value=usual if field.initial is None else field.initial,
+            acting=acting,
             receivers=tuple(map(self._node, receivers)),
             is_selector=field.selector == "yes",
             multiplexer=field.multiplexer,

@@ -22,6 +22,24 @@ class SignalState(Enum):
         return self.value
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActingCodes:
+    """Codes of a signal at which its receiver acts, and the code that ends that.
+
+    Parameters
+    ----------
+    codes, safe
+        Raw values: those at which the receiver closes a contactor, charges, heats, cools or
+        pumps, and the one at which it does not.
+    reports
+        The codes command nothing, but say that something is on.
+    """
+
+    codes: frozenset[int]
+    safe: int
+    reports: bool = False
+
+
 Value = float | int | str | SignalState | None
 """What a field of a message can hold."""
 
@@ -46,6 +64,8 @@ class Field:
         Raw values that are no value, and what they mean.
     labels
         Raw values with a meaning and their labels as in the DBC file.
+    acting
+        Which raw values act, where some do.
     """
 
     name: str
@@ -60,6 +80,7 @@ class Field:
     maximum: float
     states: Mapping[int, SignalState] = field(default_factory=dict[int, SignalState])
     labels: Mapping[int, str] = field(default_factory=dict[int, str])
+    acting: ActingCodes | None = None
 
     def to_raw(self, message: str, value: Any) -> int:
         """The raw value to send; raises `EncodeError`."""

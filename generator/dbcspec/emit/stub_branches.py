@@ -51,6 +51,11 @@ def assigned(target: str, value: str, depth: int = 1) -> str:
     return f"{indent}{target} = (\n{indent}    {value}\n{indent})"
 
 
+def declared(target: str, default: str | None) -> str:
+    """A field in the body of a class; one without a default must be given."""
+    return f"    {target}" if default is None else assigned(target, default)
+
+
 def called(target: str, function: str, arguments: str) -> str:
     """An assignment of what a function returns, at the beginning of a line."""
     line = f"{target} = {function}({arguments})"

@@ -30,7 +30,19 @@ def field_doc(signal: Signal) -> str:
     english = signal.english or signal.title or signal.name
     title = f" ({signal.title})" if signal.title not in ("", english) else ""
     text = f"{english}{title}: {_limits(signal)}. {signal.name}{_cited(signal.reference)}."
-    return _wrapped(text)
+    return _wrapped(text + _acting(signal))
+
+
+def _acting(signal: Signal) -> str:
+    """Which codes act, which one is safe, and whether the field has to be given."""
+    if not signal.acting:
+        return ""
+    labels = signal.value_table.labels() if signal.value_table else {}
+    codes = ", ".join(labels.get(code, str(code)) for code in signal.acting.codes)
+    safe = labels.get(signal.acting.safe, str(signal.acting.safe))
+    what = "Says that something is on" if signal.acting.reports else "Makes the receiver act"
+    given = " It has to be given: no value would be one of these." if signal.must_be_given else ""
+    return f" {what}: {codes}; safe is {safe}.{given}"
 
 
 def _limits(signal: Signal) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from dbcspec.emit.kinds import Kind, kind_of
 from dbcspec.emit.stub_branches import Conditions, conditions
 from dbcspec.emit.stub_docs import field_doc, quote
-from dbcspec.model import ByteOrder, Message, Signal, ValueTable
+from dbcspec.model import ActingCodes, ByteOrder, Message, Signal, ValueTable
 from dbcspec.naming import member_names
 
 _TABLE_BITS = 10
@@ -20,7 +20,7 @@ class StubField:
     signal: Signal
     kind: Kind
     annotation: str
-    default: str
+    default: str | None
     doc: str
     expression: str
     arguments: tuple[tuple[str, str], ...]
@@ -49,7 +49,7 @@ def _field(message: Message, signal: Signal, index: int, when: Conditions) -> St
         signal=signal,
         kind=kind,
         annotation=_annotation(signal, kind) + absent,
-        default="None" if when else _default(signal, kind),
+        default="None" if when else None if signal.must_be_given else _default(signal, kind),
         doc=field_doc(signal),
         expression=_expression(signal, kind, f"v[{index}]"),
         arguments=tuple(_arguments(signal, kind)),
@@ -154,7 +154,16 @@ def _arguments(signal: Signal, kind: Kind) -> list[tuple[str, str]]:
         arguments.append(("states", f"{{{inner}}}"))
     if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
         arguments.append(("labels", f"enums.{labels_name(signal.value_table)}"))
+    if signal.acting:
+        arguments.append(("acting", _acting(signal.acting)))
     return arguments
+
+
+def _acting(acting: ActingCodes) -> str:
+    codes = f"frozenset({{{', '.join(map(str, acting.codes))}}})"
+    facts = [f"codes={codes}", f"safe={acting.safe}"]
+    facts += ["reports=True"] if acting.reports else []
+    return f"ActingCodes({', '.join(facts)})"
 
 
 def _enum_name(signal: Signal) -> str:

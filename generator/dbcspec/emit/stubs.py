@@ -6,7 +6,7 @@ import builtins
 import keyword
 
 from dbcspec.emit.kinds import Kind, enums
-from dbcspec.emit.stub_branches import Branches, assigned, called, selected
+from dbcspec.emit.stub_branches import Branches, called, declared, selected
 from dbcspec.emit.stub_docs import enum_doc, message_doc, quote
 from dbcspec.emit.stub_fields import (
     StubField,
@@ -27,7 +27,7 @@ _TAKEN = {
     *dir(builtins),
     *(kind.value for kind in Kind),
     *("MESSAGES", "Any", "ClassVar", "Mapping", "dataclass", "enums", "annotations", "messages"),
-    *("Message", "SignalState", "Checksum", "Counter", "Field", "fields_by_name"),
+    *("Message", "SignalState", "Checksum", "Counter", "ActingCodes", "Field", "fields_by_name"),
 }
 """What stands in the modules of the stubs already."""
 
@@ -57,7 +57,7 @@ def emit_stubs(protocol: Protocol, runtime: str, package: str = "") -> dict[str,
         "whole_byte": whole_byte,
         "signal_of": lambda message, name: next(s for s in message.signals if s.name == name),
         "quote": quote,
-        "assigned": assigned,
+        "declared": declared,
         "called": called,
         "head": _head,
         "receivers": _receivers,
@@ -93,6 +93,7 @@ def _imports(protocol: Protocol, kinds: set[Kind]) -> list[str]:
     names = {"Field", "Message", "SignalState", "fields_by_name"}
     names |= {"Checksum" for message in protocol.messages if message.checksum}
     names |= {"Counter" for message in protocol.messages if message.counter}
+    names |= {"ActingCodes" for _, signal in protocol.signals() if signal.acting}
     names |= {(Kind.PHYSICAL if kind is Kind.FLOAT else kind).value for kind in kinds}
     return sorted(names, key=_import_order)
 
