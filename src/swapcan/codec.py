@@ -9,6 +9,7 @@ from types import MappingProxyType
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.acting import safe_codes
 from swapcan.database import Database, database
 from swapcan.errors import UnknownFrameError
 from swapcan.message import Message
@@ -46,16 +47,26 @@ class Codec:
         entries = self._database.by_frame_id
         return {number: Reader(entry, self._algorithms) for number, entry in entries.items()}
 
-    def encode(self, message: Message, *, counter: int | None = None, renew: bool = False) -> bytes:
+    def encode(
+        self,
+        message: Message,
+        *,
+        counter: int | None = None,
+        renew: bool = False,
+        safe: bool = False,
+    ) -> bytes:
         """The payload of a message.
 
         ``counter`` goes into its alive counter. A checksum or counter that the message itself
         has is sent as it is; where it is None the checksum is computed, the counter is 0.
         With ``renew`` the checksum is always computed: a message that was received and is sent
-        again has the old one. Raises `EncodeError` for a value that cannot be sent.
+        again has the old one. With ``safe`` signals with codes that act get their safe code,
+        whatever the message has. Raises `EncodeError` for a value that cannot be sent.
         """
         kind = type(message)
         raw = message.to_raw()
+        if safe:
+            raw.update(safe_codes(kind))
         if counter is not None and kind.COUNTER:
             raw[kind.COUNTER.dbc_name] = counter
         checksum = kind.CHECKSUM and kind.FIELDS[kind.CHECKSUM.field]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 
 class SwapcanError(Exception):
     """Base of all errors that this package raises on purpose."""
@@ -84,6 +86,22 @@ class SendingError(SwapcanError, ValueError):
     """A message that a node may not send, or cannot send in the way it was asked to."""
 
 
+class StillActingError(SwapcanError):
+    """What was commanded could not be ended: ``messages`` are those that act, ``cause`` says why.
+
+    Whoever receives them goes on until its own timeout.
+    """
+
+    def __init__(self, messages: Sequence[str], cause: str) -> None:
+        self.messages = tuple(messages)
+        self.cause = cause
+        names = ", ".join(messages)
+        super().__init__(
+            f"the safe codes of {names} could not be sent ({cause}):"
+            " TAKE IT FOR LIVE, switch it off by other means"
+        )
+
+
 class RequestError(SwapcanError):
     """A request cannot be made: this node has no signal for it, or it is already under way."""
 
@@ -116,4 +134,11 @@ def one_line(error: BaseException) -> str:
 
 
 def _text(error: BaseException) -> str:
-    return " ".join(str(error).split()) or type(error).__name__
+    name = type(error).__name__
+    try:
+        text = " ".join(str(error).split())
+    except Exception:  # noqa: BLE001 - an error of somebody else's that cannot even be shown
+        text = ""
+    # What a driver raises by mistake, such as "list index out of range", says too little alone.
+    wanted = isinstance(error, OSError | ValueError) or type(error).__module__ != "builtins"
+    return f"{name}: {text}" if text and not wanted else text or name

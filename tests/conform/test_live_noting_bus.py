@@ -8,7 +8,7 @@ import can
 import pytest
 
 from swapcan.clock import SimulatedClock, SystemClock
-from swapcan.conform.live.noting_bus import NotingBus
+from swapcan.drive.noting_bus import NotingBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 
 

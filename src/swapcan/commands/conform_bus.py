@@ -18,13 +18,13 @@ from swapcan.commands.bus_options import bus_name, open_bus
 from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_reports import Judged
 from swapcan.conform.live.announcement import announcement
-from swapcan.conform.live.interrupts import Interrupts
 from swapcan.conform.live.listening import listen
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
 from swapcan.console import CommandError, note
 from swapcan.monitor.recording import Recording
+from swapcan.process_signals import Interrupts
 
 _DURATION = 60.0
 """Seconds to listen where nothing else is said."""

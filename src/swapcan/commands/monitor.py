@@ -24,7 +24,6 @@ from swapcan.monitor.bus_load import BITRATE
 from swapcan.monitor.listener import Listener
 from swapcan.monitor.session import Recorded, Session
 from swapcan.monitor.watch import Watch
-from swapcan.node.port import TROUBLE
 
 _TICK = 0.05
 """Seconds between two looks at what happened."""
@@ -145,7 +144,7 @@ def _has_terminal() -> bool:
 
 def _reopen(lost: can.BusABC, options: argparse.Namespace) -> can.BusABC:
     """Open the bus anew; raises `can.CanError`."""
-    with suppress(*TROUBLE):
+    with suppress(Exception):
         lost.shutdown()  # most adapters can be open only once
     try:
         return open_bus(options)

@@ -8,12 +8,13 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 
+from swapcan.acting import acting_fields
 from swapcan.clock import Clock
 from swapcan.errors import SendingError
 from swapcan.message import Message
 from swapcan.node.bus_timers import BusTimers, has_timers
 from swapcan.node.events import guarded
-from swapcan.node.port import TROUBLE, Port
+from swapcan.node.port import Port
 from swapcan.node.schedule import Schedule
 from swapcan.node.transmit import Transmitter
 
@@ -173,7 +174,7 @@ class Cycles:
             frame = self._transmitter.frame(source.fixed[0])
             try:
                 self._timers.begin(kind, self._port.bus, frame, source.period)
-            except (NotImplementedError, *TROUBLE):
+            except Exception:  # noqa: BLE001 - what an interface cannot do is done here
                 self._unfit.add(kind)
                 return False
             self._handed_over[kind] = self._clock.now()
@@ -182,7 +183,9 @@ class Cycles:
 
     def _fits(self, kind: type[Message], source: Source) -> bool:
         return (
-            kind.COUNTER is None
+            # What acts is not left to an interface: it would go on where this process has ended.
+            not acting_fields(kind)
+            and kind.COUNTER is None
             and len(source.fixed) == 1
             and kind not in self._unfit
             and has_timers(self._port.bus)
@@ -193,7 +196,7 @@ class Cycles:
             return False
         try:
             self._timers.change(kind, self._transmitter.frame(source.fixed[0]))
-        except TROUBLE:
+        except Exception:  # noqa: BLE001 - as above
             self._unfit.add(kind)
             return False
         return True
@@ -201,7 +204,7 @@ class Cycles:
     def _take_back(self, kind: type[Message]) -> None:
         """Go on here with what the bus repeated, at the times at which the bus would have."""
         since = self._handed_over.pop(kind)
-        with suppress(*TROUBLE):  # a bus that is gone repeats nothing
+        with suppress(Exception):  # a bus that is gone repeats nothing
             self._timers.end(kind)
         period = self._sources[kind].period
         if period is not None:

@@ -2,29 +2,54 @@
 
 from __future__ import annotations
 
+import atexit
+import logging
 import math
 import threading
 from collections import defaultdict, deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import Literal
 
 import can
 
+from swapcan.acting import acting_fields
 from swapcan.bus import Received
 from swapcan.clock import Clock
 from swapcan.codec import Codec
-from swapcan.errors import SwapcanError
+from swapcan.errors import StillActingError, SwapcanError, one_line
 from swapcan.message import Message
-from swapcan.node.events import BusBack, BusLost, Dispatcher, SendFailed
+from swapcan.node.events import (
+    BusBack,
+    BusLost,
+    Dispatcher,
+    NodeFailed,
+    ReceiveFailed,
+    SendFailed,
+)
 from swapcan.node.inbox import Hearer, Inbox
+from swapcan.node.leaving import leave_safe
 from swapcan.node.outbox import Outbox
 from swapcan.node.port import Port
 from swapcan.node.request import Requests
 from swapcan.node.transmit import Transmitter
+from swapcan.process_signals import LAST_WORDS
 from swapcan.protocol import Protocol, Request
 from swapcan.supervise import Supervisor
 
+Leave = Literal["safe", "silent"]
+"""How a node is left: with the safe codes of what acts, or without a word."""
+
+_LOG = logging.getLogger("swapcan")
+
 _WAIT = 0.1
 """Seconds in one call of the bus: as long as a node takes to stop, and to notice a new request."""
+
+_HANGING = 0.5
+"""Seconds after which a receiver counts as hanging, and the sender lets time pass in its stead."""
+
+_PATIENCE = 3.0
+"""Seconds to wait for a thread to end; one that hangs in a driver never does."""
 
 
 class Engine:
@@ -44,25 +69,28 @@ class Engine:
         clock: Clock,
         supervisor: Supervisor,
         reopen: Callable[[], can.BusABC] | None,
+        leave: Leave,
     ) -> None:
         self._name = name
+        self._leaves_safe = leave == "safe" and any(map(acting_fields, protocol.sent_by(name)))
+        self._still_acting: StillActingError | None = None
         self._clock = clock
         # Noticed in any thread, told in the one that receives.
-        self._notices: deque[BusLost | BusBack | SendFailed] = deque()
+        self._notices: deque[BusLost | BusBack | SendFailed | ReceiveFailed] = deque()
         self.dispatcher = Dispatcher()
         self._port = Port(bus, clock, self._notices.append, reopen=reopen)
-        transmitter = Transmitter(self._port, codec, clock, self._notices.append)
-        self.outbox = Outbox(protocol, name, transmitter, self._port, clock)
+        self._transmitter = Transmitter(self._port, codec, clock, self._notices.append)
+        self.outbox = Outbox(protocol, name, self._transmitter, self._port, clock)
         self._port.on_new_bus = self.outbox.cycles.take_all_back
-        self.requests = Requests(
-            protocol, lambda message: self.outbox.set([message], None), self.outbox.last
-        )
+        self.requests = Requests(protocol, self._say, self.outbox.last)
         self.inbox = Inbox(
             protocol, name, codec, supervisor, self.dispatcher, self._hearers(protocol)
         )
         self.inbox.start(clock.now())
         self._stopping = threading.Event()
         self._threads: tuple[threading.Thread, ...] = ()
+        self._came_round = clock.now()  # when the one that receives was last done with a frame
+        self._frames_fail = False
 
     @property
     def next_due(self) -> float:
@@ -74,7 +102,7 @@ class Engine:
         if self._threads:
             raise SwapcanError(f"{self._name} has been started: its threads turn it")
         while frame := self._port.receive(0):
-            self.inbox.take(frame, self._clock.now())
+            self._take(frame, self._clock.now())
         self._check(self._clock.now())
         self.outbox.run()
         self._tell_notices()
@@ -86,14 +114,24 @@ class Engine:
         # A new one each time: a thread that stopped its node may not have ended yet.
         self._stopping = stopping = threading.Event()
         self._notices.clear()
-        self.inbox.start(self._clock.now())
+        self._still_acting = None
+        self.outbox.closed = ""
+        now = self._clock.now()
+        self._came_round = now
+        self.inbox.start(now)
         self.outbox.cycles.start(use_timers=True)
         self._threads = tuple(
             threading.Thread(
-                target=loop, args=(stopping,), name=f"swapcan-{self._name}-{what}", daemon=True
+                target=self._guard,
+                args=(loop, stopping),
+                name=f"swapcan-{self._name}-{what}",
+                daemon=True,
             )
             for what, loop in (("send", self._send_loop), ("receive", self._receive_loop))
         )
+        atexit.register(self._stop_at_exit)
+        if self._leaves_safe:
+            LAST_WORDS.add(self._speak_last)
         for thread in self._threads:
             thread.start()
 
@@ -108,30 +146,74 @@ class Engine:
         return any(thread.is_alive() for thread in self._threads)
 
     def stop(self) -> None:
-        """End all that was begun; does nothing where that is done."""
+        """End all that was begun; does nothing where that is done.
+
+        Raises `StillActingError` where what acts could not be ended.
+        """
+        started = bool(self._threads)
         self.ask_to_stop()
-        for thread in self._threads:
+        if not started:
+            self._leave(once=True)
+        for thread in self._threads:  # the one that sends is the first: it sends the safe codes
             if thread is not threading.current_thread():  # a callback may stop its node
-                thread.join()
+                thread.join(_PATIENCE)
         self._threads = ()
         self.requests.stop()
         self.outbox.run_once_only()
         self.outbox.cycles.stop()
+        if started:
+            self.outbox.closed = f"{self._name} has been stopped, it sends nothing more"
+        atexit.unregister(self._stop_at_exit)
+        LAST_WORDS.discard(self._speak_last)
         self._port.close()
         self.dispatcher.end_streams()
+        still_acting, self._still_acting = self._still_acting, None
+        if still_acting:
+            raise still_acting
+
+    @property
+    def acting(self) -> tuple[Message, ...]:
+        """See `Transmitter.acting`."""
+        return self._transmitter.acting
+
+    def send_safe_codes(self) -> Exception | None:
+        """See `Transmitter.send_safe_codes`."""
+        return self._transmitter.send_safe_codes()
+
+    def _guard(self, loop: Callable[[threading.Event], None], stopping: threading.Event) -> None:
+        """Live in a thread; where that cannot go on, the node ends, and says so."""
+        try:
+            loop(stopping)
+        except BaseException as error:  # noqa: BLE001 - no thread ends without a word
+            _LOG.exception("a thread of %s cannot go on", self._name)
+            self.outbox.closed = f"{self._name} sends nothing more: {one_line(error)}"
+            stopping.set()
+            self.outbox.wake()
+            self.dispatcher.emit(NodeFailed(one_line(error), self._clock.now()))
 
     def _send_loop(self, stopping: threading.Event) -> None:
-        while not stopping.is_set():
-            self.outbox.run()
-            self.outbox.wait(stopping)
+        try:
+            while not stopping.is_set():
+                self.outbox.run()
+                self._stand_in()
+                self.outbox.wait(stopping, _HANGING)
+        finally:
+            self._leave()
+
+    def _stand_in(self) -> None:
+        """Let time pass for a receiver that does not come back from the bus, or from a callback."""
+        now = self._clock.now()
+        if now - self._came_round >= _HANGING:
+            self._check(now)
+            self._tell_notices()
 
     def _receive_loop(self, stopping: threading.Event) -> None:
         # What is done for every frame is kept short; what else is due is looked for now and then.
-        receive, take, clock = self._port.receive, self.inbox.take, self._clock.now
+        receive, take, clock = self._port.receive, self._take, self._clock.now
         now = due = clock()
         while not stopping.is_set():
             frame = receive(due - now if due > now else 0)
-            now = clock()
+            now = self._came_round = clock()
             changed = frame is not None and take(frame, now)
             if changed or frame is None or now >= due:
                 self._check(now)
@@ -139,6 +221,45 @@ class Engine:
                 due = min(self._next_check(), now + _WAIT)
                 if self._port.retry_at < math.inf:  # until then receiving returns at once
                     stopping.wait(max(due - now, 0))
+
+    def _take(self, frame: can.Message, now: float) -> bool:
+        """Take a frame; True where that may change when there is something to do."""
+        try:
+            changed = self.inbox.take(frame, now)
+        except Exception as error:  # noqa: BLE001 - such as that of a user's checksum
+            if not self._frames_fail:
+                _LOG.exception("a frame could not be handled; the node goes on")
+                self._notices.append(ReceiveFailed(one_line(error), now))
+            self._frames_fail = True
+            return True
+        self._frames_fail = False
+        return changed
+
+    def _leave(self, *, once: bool = False) -> None:
+        if self._leaves_safe:
+            self._still_acting = leave_safe(self._transmitter, once=once)
+
+    def _speak_last(self) -> None:
+        """Before a signal ends or stops the process: nothing acts any more."""
+        self.outbox.closed = f"{self._name} has been stopped by a signal, it sends nothing more"
+        self._transmitter.send_safe_codes()
+        self.ask_to_stop()
+        for thread in self._threads[:1]:
+            thread.join(_PATIENCE)
+        if self._transmitter.acting:  # the thread hangs, or what the main thread holds up
+            self._transmitter.send_safe_codes()
+
+    def _stop_at_exit(self) -> None:
+        """Where a program ends without stopping its node."""
+        try:
+            self.stop()
+        except SwapcanError:
+            _LOG.exception("%s was not left safe", self._name)
+
+    def _say(self, message: Message) -> None:
+        """Send a message of a request, unless nothing is sent any more."""
+        if not self.outbox.closed:
+            self.outbox.set([message], None)
 
     def _next_check(self) -> float:
         return min(self.inbox.next_check, self.requests.next_check, self._port.retry_at)
@@ -150,8 +271,9 @@ class Engine:
             self.requests.check(now)
 
     def _tell_notices(self) -> None:
-        while self._notices:
-            self.dispatcher.emit(self._notices.popleft())
+        with suppress(IndexError):  # another thread may have told the last one
+            while self._notices:
+                self.dispatcher.emit(self._notices.popleft())
 
     def _hearers(self, protocol: Protocol) -> Mapping[type[Message], Sequence[Hearer]]:
         """What requests have to do with which message."""

@@ -56,6 +56,28 @@ class SendFailed:
 
 
 @dataclass(frozen=True, slots=True)
+class ReceiveFailed:
+    """A frame could not be handled; it is reported once, until one can be again."""
+
+    error: str
+    at: float
+
+    def __str__(self) -> str:
+        return f"frame not handled: {self.error}"
+
+
+@dataclass(frozen=True, slots=True)
+class NodeFailed:
+    """A thread of the node cannot go on: the node sends its safe codes, and then nothing more."""
+
+    error: str
+    at: float
+
+    def __str__(self) -> str:
+        return f"the node cannot go on and sends nothing more: {self.error}"
+
+
+@dataclass(frozen=True, slots=True)
 class Overrun:
     """The reader of a stream was too slow: so many of the oldest events were dropped."""
 
@@ -77,6 +99,8 @@ Event = (
     | BusLost
     | BusBack
     | SendFailed
+    | ReceiveFailed
+    | NodeFailed
     | Overrun
 )
 """All that a node tells."""

@@ -87,7 +87,9 @@ class Inbox:
             events = self._supervisor.check(now)
         self._emit_all(events)
         if now >= self._transfers.next_deadline:
-            self._emit_all(self._transfers.expire(now))
+            with self._lock:
+                problems = self._transfers.expire(now)
+            self._emit_all(problems)
 
     def last(self, kind: type[Message]) -> Received | None:
         """The message of a kind that came last."""
@@ -118,7 +120,9 @@ class Inbox:
         if events:
             self._emit_all(events)
         if kind in self._in_transfers:
-            self._emit_all(self._transfers.take(received.message, now))
+            with self._lock:
+                outcomes = self._transfers.take(received.message, now)
+            self._emit_all(outcomes)
         if kind in self._hearers:
             for hearer in self._hearers[kind]:
                 hearer(received, now)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
 from types import TracebackType
 from typing import Any, Self, TypeVar, overload
@@ -12,18 +13,20 @@ import can
 from swapcan.bus import Counts, Received
 from swapcan.clock import Clock, SystemClock
 from swapcan.codec import Codec
-from swapcan.errors import RequestError
+from swapcan.errors import RequestError, StillActingError
 from swapcan.message import Message
 from swapcan.messages import V2B_VIN, B2V_BattInfo1, B2V_SysCode1
 from swapcan.node.answers import BatteryInfo, BatteryInfoCollector, Collector, TransferCollector
 from swapcan.node.cycles import Maker
-from swapcan.node.engine import Engine
+from swapcan.node.engine import Engine, Leave
 from swapcan.node.events import Event
 from swapcan.node.request import Pending
 from swapcan.protocol import Protocol
 from swapcan.supervise import State, Supervisor
 from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import PackCode, PackCodeAssembler, Vin, VinAssembler
+
+_LOG = logging.getLogger("swapcan")
 
 EventT = TypeVar("EventT")
 AnswerT = TypeVar("AnswerT")
@@ -36,7 +39,12 @@ class Node:
     due and take what arrives, whatever the number of messages. Or drive it by hand, with `turn`,
     on a clock of one's own. Leaving stops what the node started and nothing else.
 
-    Callbacks run one after another in the thread that receives. The interface of the bus must let
+    Callbacks run one after another in the thread that receives; while that hangs, in the bus or in
+    a callback, what time alone changes is told by the one that sends. Whatever exception a bus
+    raises is trouble that is reported, and tried again; a node that cannot go on tells it as
+    `NodeFailed`, and sends no more. Signals that end a process, SIGTERM among them, end what acts
+    first where the program does not handle them itself and the node was started in the main thread.
+    The interface of the bus must let
     one thread send while another receives, as most do; `can.ThreadSafeBus` helps those that do
     not.
 
@@ -57,6 +65,10 @@ class Node:
     reopen
         Opens another bus where the one at hand does not work any more. What it opened, the node
         closes.
+    leave
+        What happens in the end where the node has commanded something that acts, such as high
+        voltage on: "safe" sends the safe codes first, as long as the bus takes them; "silent", for
+        tests of how others take it, just ends.
     """
 
     def __init__(
@@ -72,6 +84,7 @@ class Node:
         late_periods: float = 1.5,
         timeouts: Mapping[type[Message], float] | None = None,
         reopen: Callable[[], can.BusABC] | None = None,
+        leave: Leave = "safe",
     ) -> None:
         self.protocol = protocol
         self.name = name
@@ -94,6 +107,7 @@ class Node:
             clock=self.clock,
             supervisor=supervisor,
             reopen=reopen,
+            leave=leave,
         )
         self._outbox = self._engine.outbox
         self._inbox = self._engine.inbox
@@ -107,7 +121,8 @@ class Node:
         not disturb its rhythm. Several messages of one type are the frames of one cycle, spread
         evenly over it; they change with the cycle. A message without a period goes out once.
         Checksums and alive counters are filled in at each transmission. Raises `SendingError` for
-        a message that is not this node's, and `EncodeError`; then nothing is set.
+        a message that is not this node's, or once the node sends no more, and `EncodeError`; then
+        nothing is set.
         """
         self._outbox.set(messages, period)
 
@@ -242,7 +257,8 @@ class Node:
     def stop(self) -> None:
         """End what the node began; does nothing where there is nothing to end.
 
-        Requests under way end with `RequestError`. The bus stays open.
+        Requests under way end with `RequestError`. The bus stays open. What acts is ended first,
+        see ``leave``; raises `StillActingError` where the bus did not take the safe codes.
         """
         self._engine.stop()
 
@@ -256,7 +272,7 @@ class Node:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        self.stop()
+        self._stop_after(error)
 
     async def __aenter__(self) -> Self:
         self.start()
@@ -273,7 +289,29 @@ class Node:
             while self._engine.runs:
                 await asyncio.sleep(0.005)
         finally:
+            self._stop_after(error)
+
+    def _stop_after(self, error: BaseException | None) -> None:
+        """Stop; what is wrong with that is told beside the error that a block was left with."""
+        try:
             self.stop()
+        except StillActingError as failure:
+            if error is None:
+                raise
+            error.add_note(f"{self.name}: {failure}")
+            _LOG.error("%s: %s", self.name, failure)
+
+    @property
+    def acting(self) -> tuple[Message, ...]:
+        """The messages that were sent last with a code that acts, such as high voltage on."""
+        return self._engine.acting
+
+    def send_safe_codes(self) -> Exception | None:
+        """Send now, without receiving first, the safe codes of what was commanded.
+
+        What is sent cyclically goes on as it was set. Returns what the bus raised, if it did.
+        """
+        return self._engine.send_safe_codes()
 
     # Driven by hand
 

@@ -50,6 +50,8 @@ class Outbox:
         self._last: dict[type[Message], Message] = {}
         self._answers: dict[type[Message], Source] = {}
         self._asked: set[type[Message]] = set()
+        self.closed = ""
+        """Why nothing is sent any more; empty while something is."""
 
     @property
     def next_due(self) -> float:
@@ -59,6 +61,7 @@ class Outbox:
 
     def set(self, messages: Iterable[Message], period: float | None) -> None:
         """See `Node.set`."""
+        self._check_open()
         by_kind = self._checked(messages)
         _check_period(period)
         with self._changed:
@@ -73,6 +76,7 @@ class Outbox:
 
     def supply(self, kind: type[Message], make: Maker, period: float | None) -> None:
         """See `Node.supply`."""
+        self._check_open()
         self._check(kind)
         _check_period(period)
         with self._changed:
@@ -81,11 +85,13 @@ class Outbox:
 
     def provide(self, messages: Iterable[Message]) -> None:
         """See `Node.provide`."""
+        self._check_open()
         for kind, frames in self._checked(messages).items():
             self._provide(kind, Source.of(frames, kind.PERIOD))
 
     def provide_from(self, kind: type[Message], make: Maker) -> None:
         """See `Node.provide_from`."""
+        self._check_open()
         self._check(kind)
         self._provide(kind, Source(make, kind.PERIOD))
 
@@ -101,6 +107,7 @@ class Outbox:
 
     def send(self, message: Message) -> None:
         """See `Node.send`."""
+        self._check_open()
         self._check(type(message))
         self._transmitter.send(message)
         self._last[type(message)] = message
@@ -146,12 +153,12 @@ class Outbox:
         while self._send_due_once():
             pass
 
-    def wait(self, stopping: threading.Event) -> None:
-        """Wait until something is due or something changes."""
+    def wait(self, stopping: threading.Event, at_most: float) -> None:
+        """Wait until something is due or something changes, so many seconds at most."""
         with self._changed:
             left = self.next_due - self._clock.now()
             if left > 0 and not stopping.is_set():
-                self._changed.wait(min(left, threading.TIMEOUT_MAX))
+                self._changed.wait(min(left, at_most))
 
     def wake(self) -> None:
         """Let `wait` return."""
@@ -166,6 +173,10 @@ class Outbox:
             self._transmitter.check(message)
             by_kind[type(message)] = (*by_kind.get(type(message), ()), message)
         return by_kind
+
+    def _check_open(self) -> None:
+        if self.closed:
+            raise SendingError(self.closed)
 
     def _check(self, kind: type[Message]) -> None:
         if kind not in self._may_send:

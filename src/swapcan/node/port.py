@@ -12,9 +12,6 @@ from swapcan.clock import Clock
 from swapcan.errors import one_line
 from swapcan.node.events import BusBack, BusLost
 
-TROUBLE = (can.CanError, OSError, ValueError)
-"""What interfaces raise where a bus does not work: `ValueError` comes of a closed socket."""
-
 _FIRST_RETRY = 0.05
 _LAST_RETRY = 2.0
 """Seconds between two attempts to receive: at first, and at most."""
@@ -67,13 +64,13 @@ class Port:
         return self._retry_at
 
     def send(self, frame: can.Message) -> None:
-        """Send a frame, or raise one of `TROUBLE`.
+        """Send a frame, or raise what the bus raises, be it what it may.
 
         Nothing waits for a full queue: one that does not empty would hold up all other messages.
         """
         try:
             self._bus.send(frame, timeout=0)
-        except TROUBLE as error:
+        except Exception as error:
             self._fails("send", error)
             raise
         if self._broken:
@@ -82,13 +79,15 @@ class Port:
     def receive(self, timeout: float) -> can.Message | None:
         """The next frame; None where none arrives in ``timeout`` seconds or the bus is lost.
 
+        Any exception of the bus, and of opening another one, counts as lost.
+
         While it is lost this returns at once, and touches the bus only at `retry_at`.
         """
         try:
             if self._retry_at == math.inf:
                 return self._bus.recv(timeout)
             return self._try_again() if self._clock.now() >= self._retry_at else None
-        except TROUBLE as error:
+        except Exception as error:  # noqa: BLE001 - drivers raise what they like
             self._retry_at = self._clock.now() + self._delay
             self._delay = min(2 * self._delay, _LAST_RETRY)
             self._fails("receive", error)
@@ -103,7 +102,7 @@ class Port:
     def _try_again(self) -> can.Message | None:
         try:
             frame = self._bus.recv(0)
-        except TROUBLE:
+        except Exception:
             if self._reopen is None:
                 raise
             frame = self._open_another(self._reopen).recv(0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from types import TracebackType
 from typing import Self
 
@@ -146,7 +147,9 @@ class Simulation:
         self.close()
 
     def close(self) -> None:
-        """Close all buses."""
+        """End what the nodes have commanded, unless that is simulated too, and close all buses."""
+        if not self.wires and hasattr(self, "world"):
+            self.world.send_safe_codes()
         for buses in self.buses.values():
             for bus in buses:
                 bus.shutdown()
@@ -172,7 +175,8 @@ class Simulation:
     def _release_late_frames(self) -> None:
         for buses in self.buses.values():
             for bus in buses:
-                bus.release()
+                with suppress(Exception):  # the next frame of a node tells what is wrong with it
+                    bus.release()
 
     def _bus(self, node: str, *, charger: bool = False) -> FaultyBus:
         bus = FaultyBus(self._charger() if charger else self._vehicle(), clock=self.clock)

@@ -135,6 +135,13 @@ class Vcu(Participant):
         self.stop()
         self._switching_off = True
 
+    def withdraw(self) -> None:
+        """Command high voltage off at once, whatever the speed, and ask for nothing more."""
+        for pending in (self.pack_code, self.battery_info):
+            if pending:
+                pending.cancel()
+        self._off()
+
     def ask(self) -> None:
         """Ask the BMU for pack code and basic data: see `pack_code` and `battery_info`.
 

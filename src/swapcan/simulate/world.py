@@ -24,8 +24,8 @@ class World:
 
     `run` lets time pass: on a `SimulatedClock` it jumps from one moment at which something is due
     to the next, otherwise it sleeps in between. ``with world:`` lets them live in a thread of
-    their own, until the block is left; on a simulated clock as fast as it goes. Neither closes a
-    bus.
+    their own, until the block is left; on a simulated clock as fast as it goes, in real time with
+    the safe codes of what acts in the end. Neither closes a bus.
 
     Parameters
     ----------
@@ -88,6 +88,12 @@ class World:
             raise RuntimeError("the world is running already, in a thread of its own")
         self._live(seconds)
 
+    def send_safe_codes(self) -> None:
+        """Send once the safe codes of what acts, as long as the buses take them."""
+        for node in self._nodes:
+            if node.acting:
+                node.send_safe_codes()
+
     def __enter__(self) -> Self:
         self._stop.clear()
         self._thread = threading.Thread(target=self._live_apart, name="swapcan-world")
@@ -104,6 +110,8 @@ class World:
         if self._thread:
             self._thread.join()
             self._thread = None
+        if not isinstance(self.clock, SimulatedClock):
+            self.send_safe_codes()
         failure, self._failure = self._failure, None
         if failure and error is None:
             raise failure
