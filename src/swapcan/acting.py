@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 
 from swapcan.message import Field, Message
 
+_KNOWN: dict[type[Message], tuple[Field, ...]] = {}  # looked up for every frame that is sent
 
-@cache
+
 def acting_fields(kind: type[Message]) -> tuple[Field, ...]:
     """The fields of a message with codes at which its receiver acts.
 
     Fields that only report that something is on are not among them.
     """
-    return tuple(
-        field for field in kind.FIELDS.values() if field.acting and not field.acting.reports
-    )
+    if kind not in _KNOWN:
+        fields = kind.FIELDS.values()
+        _KNOWN[kind] = tuple(each for each in fields if each.acting and not each.acting.reports)
+    return _KNOWN[kind]
 
 
-@cache
 def safe_codes(kind: type[Message]) -> Mapping[str, int]:
     """The safe raw value of each signal of a message that can act, by its DBC name."""
     return {field.dbc_name: field.acting.safe for field in acting_fields(kind) if field.acting}

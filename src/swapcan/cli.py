@@ -9,11 +9,9 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import PackageNotFoundError, version
 
-import can
-
 from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
 from swapcan.console import CommandError, Parser, finish, note, say
-from swapcan.errors import SwapcanError, one_line
+from swapcan.errors import one_line
 
 _COMMANDS = (
     demo.COMMAND,
@@ -26,6 +24,8 @@ _COMMANDS = (
     monitor.COMMAND,
     simulate.COMMAND,
 )
+
+_LOG = logging.getLogger("swapcan")
 
 _EXAMPLES = """examples:
   swapcan demo                                        a pack and a truck on a virtual bus
@@ -54,8 +54,9 @@ def run(arguments: Sequence[str]) -> int:
         finish()
     except BrokenPipeError:  # the reader went away: leave quietly
         return 1
-    except (SwapcanError, can.CanError, OSError) as error:  # OSError: an adapter pulled out
+    except Exception as error:  # noqa: BLE001 - what drivers and files bring about is no list
         note(one_line(error))
+        _LOG.debug("what stopped the command", exc_info=True)
         return 2
     return status
 

@@ -95,14 +95,20 @@ class Interrupts:
         self._typed = 0
         self._ending: int | None = None
         self._stopping: int | None = None
-        self._stopped = False
+        self._stopped_by: int | None = None
         self._before: dict[int, Any] = {}
 
     @property
     def is_over(self) -> bool:
         """Whether it is time to end."""
         asked = self._typed > 0 or self._ending is not None or self._stopping is not None
-        return asked or self._stopped
+        return asked or self._stopped_by is not None
+
+    @property
+    def status(self) -> int | None:
+        """The exit status of a command that a signal has ended: 128 and its number; else None."""
+        number = self._ending or (signal.SIGINT if self._typed else None) or self._stopped_by
+        return None if number is None else 128 + number
 
     def stop_if_asked(self) -> None:
         """Stop the process where Ctrl-Z has asked for that, now that nothing acts any more.
@@ -111,7 +117,7 @@ class Interrupts:
         """
         if self._stopping is not None:
             number, self._stopping = self._stopping, None
-            self._stopped = True
+            self._stopped_by = number
             _let_it(number, self.note)
 
     def go_on(self) -> None:
@@ -144,7 +150,7 @@ class Interrupts:
         elif _is_one_of(number, _TYPED_STOP):
             self._stopping = number
         elif _is_one_of(number, _TERMINAL_STOP):
-            self._stopped = True
+            self._stopped_by = number
             self.at_once()
             _let_it(number, self.note)
         else:

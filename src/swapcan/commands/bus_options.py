@@ -9,18 +9,6 @@ import can
 from swapcan.console import CommandError
 from swapcan.errors import one_line
 
-_FAILURES = (
-    can.CanError,
-    OSError,
-    TypeError,  # an argument that the interface does not know
-    ValueError,
-    # What some interfaces raise without their driver, kvaser and neovi among them:
-    AttributeError,
-    ImportError,
-    NameError,
-    RuntimeError,
-)
-
 
 def add_bus_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that python-can's own programs have.
@@ -57,7 +45,7 @@ def open_bus(options: argparse.Namespace) -> can.BusABC:
     given = {name: value for name, value in named.items() if value is not None}
     try:
         return can.Bus(**{**dict(options.bus_kwargs), **given})
-    except _FAILURES as error:
+    except Exception as error:  # noqa: BLE001 - interfaces raise what they like
         hint = "" if options.interface else "; --interface names one"
         raise CommandError(f"cannot open the bus: {one_line(error)}{hint}") from None
 

@@ -76,6 +76,7 @@ def _heard(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> Judge
                 )
             finally:
                 progress.clear()
+    interrupts.stop_if_asked()
     interrupts.go_on()
     return _judged(given, choice, path, name)
 
@@ -99,6 +100,7 @@ def _driven(
             note(f"playing {scenario.name} on {name}, Ctrl-C switches off and ends")
             with _recorded(path) as recording:
                 _play(bus, interrupts, scenario, nodes, recording, given.channel)
+            interrupts.stop_if_asked()  # nothing acts any more
             played += 1
     interrupts.go_on()
     judged = [
@@ -122,6 +124,7 @@ def _play(
 ) -> None:
     progress = _Progress(recording)
     stage = Stage(bus, is_over=lambda: interrupts.is_over, watch=progress.update)
+    interrupts.at_once = stage.send_safe_codes
     try:
         stage.play(scenario, nodes, _noting(recording, channel))
     finally:

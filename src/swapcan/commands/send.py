@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import argparse
 
+import can
+
+from swapcan.acting import what_acts
 from swapcan.bus import Link
+from swapcan.clock import SystemClock
 from swapcan.codec import decode, encode
 from swapcan.commands.bus_options import add_bus_options, open_bus
+from swapcan.commands.driving import add_consent, are_virtual, may_act
 from swapcan.commands.transcript import values_text
 from swapcan.commands.values import message_named, message_of
-from swapcan.console import Command, say
+from swapcan.console import Command, CommandError, note, say
+from swapcan.drive.driving import LOOK_OUT, Driving
+from swapcan.drive.noting_bus import NotingBus
+from swapcan.message import Message
 
 _TIMEOUT = 1.0
 """Seconds for the bus to accept the frame."""
@@ -23,6 +31,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FIELD=VALUE",
         help="field or DBC signal; a number, label, character, 'invalid' or 'abnormal'",
     )
+    add_consent(parser, "a code that makes its receiver act, on anything but the virtual interface")
     add_bus_options(parser)
 
 
@@ -30,6 +39,8 @@ def _run(options: argparse.Namespace) -> int:
     message = message_of(message_named(options.message), options.fields)
     encode(message)  # refuses a wrong value before a bus is opened
     with open_bus(options) as bus:
+        if acting := what_acts(message):
+            _see_whether(options, bus, message, ", ".join(acting))
         frame = Link(bus).send(message, timeout=_TIMEOUT)
     sent = decode(frame.arbitration_id, bytes(frame.data))
     data = frame.data.hex(" ").upper()
@@ -37,12 +48,32 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _see_whether(
+    options: argparse.Namespace, bus: can.BusABC, message: Message, acting: str
+) -> None:
+    """See that a message that acts may be sent, and that nobody else sends it."""
+    if not may_act(options, bus):
+        raise CommandError(
+            f"{message.NAME} {acting} makes its receiver act: nothing was sent;"
+            " --yes-drive-the-bus sends it"
+        )
+    if not are_virtual([bus]):
+        note(f"looking for another {message.SENDER} for {LOOK_OUT:g} s")
+        with NotingBus(bus, lambda _: None, played=[message.FRAME_ID]) as noting:
+            Driving([noting], clock=SystemClock()).look_out()
+
+
 COMMAND = Command(
     name="send",
-    help="send one message; what is not given goes out as invalid, or 0 where it cannot",
+    help="send one message; what is not given goes out as invalid, or 0 where it cannot act",
     examples="""  swapcan send B2V_ST2 soc=80 current=-120.5 -i socketcan -c can0
   swapcan send B2V_ST1 'bms=HV closed' -i pcan -c PCAN_USBBUS1 -b 250000
-  swapcan send V2B_CMD V2B_CMD_HV_OnOff=hv_on -i udp_multicast -c 239.74.163.2""",
+  swapcan send V2B_CMD V2B_CMD_HV_OnOff=hv_off -i udp_multicast -c 239.74.163.2
+  swapcan send V2B_CMD hv_on_off=hv_on -i socketcan -c can0 --yes-drive-the-bus
+
+A code that closes contactors, charges, heats, cools or pumps is not sent without the last option,
+and not where somebody else sends that message. Nothing ends it here: that is left to its receiver's
+timeout, or to the next message.""",
     add_arguments=_add_arguments,
     run=_run,
 )

@@ -10,12 +10,13 @@ from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
-from swapcan.commands.simulation_report import SimulationReport
-from swapcan.console import Command, aligned, note, say, seconds
+from swapcan.commands.driving import add_consent
+from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
+from swapcan.console import Command, aligned, say, seconds
+from swapcan.process_signals import Interrupts
 from swapcan.simulate.faults import FAULTS, able_nodes, planned_fault
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
-from swapcan.simulate.shared_bus import SharedBus
-from swapcan.simulate.simulation import Simulation, check
+from swapcan.simulate.simulation import check
 from swapcan.simulate.times import PlanError
 
 T = TypeVar("T")
@@ -51,6 +52,11 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
     parser.add_argument("--seed", type=int, default=0, help="what chance is drawn from")
     parser.add_argument("--json", action="store_true", help="print one JSON object a line")
+    add_consent(
+        parser,
+        "what VCU and BMU command (high voltage on, charging, cooling) on anything but the virtual"
+        " interface; without it they are left out",
+    )
     add_bus_options(parser)
     parser.add_argument(
         "--charger-bus",
@@ -84,27 +90,16 @@ def _run(options: argparse.Namespace) -> int:
     plan = _default_plan(names) if options.plan is None else options.plan
     check(names, plan, options.faults)
     with ExitStack() as stack:
-        vehicle = SharedBus(stack.enter_context(open_bus(options)))
-        charger = None
+        interrupts = stack.enter_context(Interrupts())
+        buses = [stack.enter_context(open_bus(options))]
         if options.charger_bus:
-            charger = SharedBus(stack.enter_context(open_bus(_charger_options(options))))
-        simulation = stack.enter_context(
-            Simulation(
-                names,
-                vehicle.share,
-                charger.share if charger else None,
-                plan=plan,
-                faults=options.faults,
-                seed=options.seed,
-            )
-        )
-        report = SimulationReport(simulation, as_json=options.json)
-        note(f"simulating {', '.join(names)} on {bus_name(vehicle.bus, options)}, Ctrl-C ends")
-        try:
-            simulation.world.run(options.seconds)
-        finally:
-            note(report.summary(*filter(None, (vehicle, charger))))
-    return 0
+            buses.append(stack.enter_context(open_bus(_charger_options(options))))
+        allowed = allowed_nodes(options, names, buses)
+        if options.plan is None:
+            plan = _default_plan(allowed)
+        LivingNodes(options, allowed, plan, buses, bus_name(buses[0], options)).live(interrupts)
+    interrupts.stop_if_asked()
+    return interrupts.status or 0
 
 
 def _assignment(text: str) -> tuple[str, str]:
@@ -135,10 +130,17 @@ def _list_faults() -> None:
 COMMAND = Command(
     name="simulate",
     help="be nodes of the protocol on a bus: a truck, a pack, a charger that behave",
-    examples="""  swapcan simulate BMU CHG -i socketcan -c can0
-  swapcan simulate VCU -i udp_multicast -c 239.74.163.2 --plan "hv_on@1s, drive@3s, hv_off@60s"
-  swapcan simulate BMU -i pcan -c PCAN_USBBUS1 -b 250000 --fault over_temperature@30s+10s
-  swapcan simulate --list-faults""",
+    examples="""  swapcan simulate -i virtual -c 0
+  swapcan simulate CHG TMS BSU -i socketcan -c can0
+  swapcan simulate VCU -i socketcan -c can0 --plan "hv_on@1s, hv_off@60s" --yes-drive-the-bus
+  swapcan simulate BMU -i pcan -c PCAN_USBBUS1 --fault over_temperature@30s --yes-drive-the-bus
+  swapcan simulate --list-faults
+
+VCU and BMU look for two seconds whether somebody else sends their messages, and end where
+somebody does. However they end, by an error, Ctrl-C, Ctrl-Z or another signal, they first send the
+safe codes of what they have commanded, as long as the bus takes them. What cannot be caught is
+SIGKILL, a power cut, a frozen machine and a driver that hangs: then a command holds until its
+receiver's own timeout. Switching high voltage off at speed opens contactors under load.""",
     add_arguments=_add_arguments,
     run=_run,
 )

@@ -12,7 +12,7 @@ In JSON, one object a line:
 - supervision: a message is late, lost, alive again or was never seen;
 - signal: a signal says that something is wrong, or no longer does;
 - frame: a frame had a wrong length, checksum or counter;
-- bus: the bus is lost or back, or a message could not be sent;
+- bus: the bus is lost or back, a message could not be sent, a frame not be handled;
 - answer: what it asked for, or that nobody answered.
 
 Supervision, signal and frame have ``message`` too.
@@ -30,7 +30,7 @@ from swapcan.errors import RequestError
 from swapcan.message import Message
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
-from swapcan.node.events import BusBack, BusLost, SendFailed
+from swapcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
 from swapcan.node.request import Pending
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
@@ -46,6 +46,8 @@ _KINDS = {
     BusLost: "bus",
     BusBack: "bus",
     SendFailed: "bus",
+    ReceiveFailed: "bus",
+    NodeFailed: "bus",
 }
 
 

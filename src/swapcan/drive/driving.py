@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
+from functools import partial
 
 import can
 
@@ -173,7 +174,8 @@ class Driving:
 
     def _send_safe_codes(self, simulation: Simulation, faults: Iterable[PlannedFault]) -> None:
         """By the nodes, whose counters go on, and where that fails on the bare buses."""
-        self._try(lambda: [simulation.heal(fault) for fault in faults])
+        for fault in faults:
+            self._try(partial(simulation.heal, fault))
         for participant in simulation.participants.values():
             self._send_those_of(participant)
         for bus in self._buses:

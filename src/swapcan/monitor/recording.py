@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import sqlite3
-import struct
 import threading
+import time
 from contextlib import suppress
 from copy import copy
 from pathlib import Path
@@ -15,8 +14,8 @@ from can.util import channel2int
 
 from swapcan.errors import SwapcanError, one_line
 
-_FAILURES = (OSError, TypeError, ValueError, sqlite3.Error, struct.error)
-"""What writers raise: `ValueError` comes of a closed file."""
+_LATEST = 2.0**32
+"""Seconds since 1970 that every format can hold."""
 
 _CHANNELS = 0xFFFE
 """The highest channel number that all formats can hold."""
@@ -48,10 +47,14 @@ class Recording:
             threading.excepthook = self._note_thread_error
 
     def write(self, frame: can.Message) -> None:
-        """Write a frame; raises `RecordingError`."""
+        """Write a frame; raises `RecordingError`.
+
+        One whose time stamp cannot be gets the system's time, since writers refuse it.
+        """
+        frame = _timed(frame)
         try:
             self._writer.on_message_received(frame if self._names_channels else _numbered(frame))
-        except _FAILURES as error:
+        except Exception as error:  # noqa: BLE001 - writers raise what they like
             raise self._error(error) from None
         if self._thread_error:
             raise self._error(self._thread_error)
@@ -61,9 +64,9 @@ class Recording:
         """Write what is still on its way, and close the file; raises `RecordingError`."""
         try:
             self._writer.stop()
-        except _FAILURES as error:
+        except Exception as error:  # noqa: BLE001 - as above
             # Some writers leave the file open where the last of it cannot be written.
-            with suppress(*_FAILURES, AttributeError):
+            with suppress(Exception):
                 self._writer.file.close()  # type: ignore[attr-defined]
             raise self._error(error) from None
         finally:
@@ -99,7 +102,7 @@ def _open(path: Path) -> MessageWriter:
         raise RecordingError(f"{path}: cannot be written: {error.strerror}") from None
     try:
         return can.Logger(path)
-    except (*_FAILURES, NotImplementedError, ImportError) as error:
+    except Exception as error:  # noqa: BLE001 - as above
         path.unlink(missing_ok=True)
         problem = _reason(error)
         if path.suffix.lower() not in (*can.io.logger.MESSAGE_WRITERS, ".gz"):
@@ -108,6 +111,15 @@ def _open(path: Path) -> MessageWriter:
                 f"python-can writes no {path.suffix or 'file without a suffix'}; it writes {known}"
             )
         raise RecordingError(f"{path}: {problem}") from None
+
+
+def _timed(frame: can.Message) -> can.Message:
+    """The frame, with the system's time where its own is none."""
+    if 0 <= frame.timestamp < _LATEST:  # not where it is not a number
+        return frame
+    writable = copy(frame)
+    writable.timestamp = time.time()
+    return writable
 
 
 def _numbered(frame: can.Message) -> can.Message:

@@ -1,8 +1,16 @@
 """Live nodes: `Node` sends, receives, supervises and asks; what it tells are its events."""
 
-from swapcan.errors import SendingError
+from swapcan.errors import SendingError, StillActingError
 from swapcan.node.answers import BatteryInfo
-from swapcan.node.events import BusBack, BusLost, Event, Overrun, SendFailed
+from swapcan.node.events import (
+    BusBack,
+    BusLost,
+    Event,
+    NodeFailed,
+    Overrun,
+    ReceiveFailed,
+    SendFailed,
+)
 from swapcan.node.node import Node
 from swapcan.node.request import Pending
 
@@ -12,8 +20,11 @@ __all__ = [
     "BusLost",
     "Event",
     "Node",
+    "NodeFailed",
     "Overrun",
     "Pending",
+    "ReceiveFailed",
     "SendFailed",
     "SendingError",
+    "StillActingError",
 ]

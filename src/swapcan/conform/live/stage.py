@@ -56,6 +56,7 @@ class Stage:
         self._wires = wires
         self._is_over = is_over
         self._watch = watch
+        self._driven: NotingBus | None = None
         self.left = Left.UNTOUCHED
 
     def play(self, scenario: Scenario, nodes: Sequence[str], note: Note) -> None:
@@ -80,6 +81,7 @@ class Stage:
         self.left = Left.UNTOUCHED
         played = [kind.FRAME_ID for node in nodes for kind in PROTOCOL.sent_by(node)]
         with NotingBus(self._bus, note, clock=self._clock, played=played) as bus:
+            self._driven = bus
             driving = Driving(
                 [bus],
                 clock=self._clock,
@@ -95,6 +97,11 @@ class Stage:
             raise driving.interrupted
         if bus.failure:
             raise bus.failure
+
+    def send_safe_codes(self) -> None:
+        """End what acts at this moment, if something does; any thread may."""
+        if self._driven and self._driven.acting:
+            self._driven.send_safe_codes()
 
     def _play(
         self, driving: Driving, scenario: Scenario, nodes: Sequence[str], bus: NotingBus
