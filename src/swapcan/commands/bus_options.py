@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 import can
 
@@ -41,13 +42,24 @@ def add_bus_options(parser: argparse.ArgumentParser) -> None:
 
 def open_bus(options: argparse.Namespace) -> can.BusABC:
     """The bus that the options name; raises `CommandError` where it cannot be opened."""
-    named = {name: getattr(options, name) for name in ("interface", "channel", "bitrate")}
-    given = {name: value for name, value in named.items() if value is not None}
     try:
-        return can.Bus(**{**dict(options.bus_kwargs), **given})
+        return can.Bus(**_given(options))
     except Exception as error:  # noqa: BLE001 - interfaces raise what they like
         hint = "" if options.interface else "; --interface names one"
         raise CommandError(f"cannot open the bus: {one_line(error)}{hint}") from None
+
+
+def is_virtual(options: argparse.Namespace) -> bool:
+    """Whether the options name python-can's virtual interface, by which nothing can be moved.
+
+    Others may be behind every other interface: udp_multicast crosses machines, and vcan can be
+    forwarded to a real bus.
+    """
+    try:
+        config = can.util.load_config(config=_given(options))
+    except Exception:  # noqa: BLE001 - opening the bus says what is wrong
+        return False
+    return config.get("interface") == "virtual"
 
 
 def bus_name(bus: can.BusABC, options: argparse.Namespace) -> str:
@@ -55,6 +67,13 @@ def bus_name(bus: can.BusABC, options: argparse.Namespace) -> str:
     if bus.channel_info != "unknown":  # python-can's word for what an interface does not tell
         return bus.channel_info
     return " ".join(filter(None, (options.interface, options.channel))) or "the configured bus"
+
+
+def _given(options: argparse.Namespace) -> dict[str, Any]:
+    """The arguments of the bus that the options have."""
+    named = {name: getattr(options, name) for name in ("interface", "channel", "bitrate")}
+    given = {name: value for name, value in named.items() if value is not None}
+    return {**dict(options.bus_kwargs), **given}
 
 
 def _assignment(text: str) -> tuple[str, str]:

@@ -5,9 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable
 
-import can
-from can.interfaces.virtual import VirtualBus
-
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.acting import acting_fields
 from swapcan.message import Field, Message
@@ -20,20 +17,6 @@ def add_consent(group: argparse._ActionsContainer, what: str) -> None:
         action="store_true",
         help=f"really send {what}; contactors may close, and chargers start",
     )
-
-
-def may_act(options: argparse.Namespace, *buses: can.BusABC) -> bool:
-    """Whether codes that act may be sent: with consent, or on python-can's virtual interface.
-
-    Others may be behind every other interface: udp_multicast crosses machines, and vcan can be
-    forwarded to a real bus.
-    """
-    return bool(options.yes_drive_the_bus) or are_virtual(buses)
-
-
-def are_virtual(buses: Iterable[can.BusABC]) -> bool:
-    """Whether nothing can be moved on these buses: all are of python-can's virtual interface."""
-    return all(isinstance(bus, VirtualBus) for bus in buses)
 
 
 def acting_messages(node: str) -> tuple[type[Message], ...]:

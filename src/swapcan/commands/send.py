@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import argparse
 
-import can
-
 from swapcan.acting import what_acts
 from swapcan.bus import Link
 from swapcan.clock import SystemClock
 from swapcan.codec import decode, encode
-from swapcan.commands.bus_options import add_bus_options, open_bus
-from swapcan.commands.driving import add_consent, are_virtual, may_act
+from swapcan.commands.bus_options import add_bus_options, is_virtual, open_bus
+from swapcan.commands.driving import add_consent
 from swapcan.commands.transcript import values_text
 from swapcan.commands.values import message_named, message_of
 from swapcan.console import Command, CommandError, note, say
 from swapcan.drive.driving import LOOK_OUT, Driving
 from swapcan.drive.noting_bus import NotingBus
-from swapcan.message import Message
 
 _TIMEOUT = 1.0
 """Seconds for the bus to accept the frame."""
@@ -38,29 +35,23 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
 def _run(options: argparse.Namespace) -> int:
     message = message_of(message_named(options.message), options.fields)
     encode(message)  # refuses a wrong value before a bus is opened
+    acting = what_acts(message)
+    looks_out = bool(acting) and not is_virtual(options)
+    if looks_out and not options.yes_drive_the_bus:
+        raise CommandError(
+            f"{message.NAME} {', '.join(acting)} makes its receiver act: nothing was sent;"
+            " --yes-drive-the-bus sends it"
+        )
     with open_bus(options) as bus:
-        if acting := what_acts(message):
-            _see_whether(options, bus, message, ", ".join(acting))
+        if looks_out:
+            note(f"looking for another {message.SENDER} for {LOOK_OUT:g} s")
+            with NotingBus(bus, lambda _: None, played=[message.FRAME_ID]) as noting:
+                Driving([noting], clock=SystemClock()).look_out()
         frame = Link(bus).send(message, timeout=_TIMEOUT)
     sent = decode(frame.arbitration_id, bytes(frame.data))
     data = frame.data.hex(" ").upper()
     say("  ".join((f"0x{frame.arbitration_id:08X}", f"[{data}]", sent.NAME, *values_text(sent))))
     return 0
-
-
-def _see_whether(
-    options: argparse.Namespace, bus: can.BusABC, message: Message, acting: str
-) -> None:
-    """See that a message that acts may be sent, and that nobody else sends it."""
-    if not may_act(options, bus):
-        raise CommandError(
-            f"{message.NAME} {acting} makes its receiver act: nothing was sent;"
-            " --yes-drive-the-bus sends it"
-        )
-    if not are_virtual([bus]):
-        note(f"looking for another {message.SENDER} for {LOOK_OUT:g} s")
-        with NotingBus(bus, lambda _: None, played=[message.FRAME_ID]) as noting:
-            Driving([noting], clock=SystemClock()).look_out()
 
 
 COMMAND = Command(

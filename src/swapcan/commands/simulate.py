@@ -9,7 +9,7 @@ from contextlib import ExitStack
 from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
+from swapcan.commands.bus_options import add_bus_options, bus_name, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
 from swapcan.console import Command, aligned, say, seconds
@@ -89,15 +89,17 @@ def _run(options: argparse.Namespace) -> int:
     names = tuple(options.nodes) or PROTOCOL.nodes
     plan = _default_plan(names) if options.plan is None else options.plan
     check(names, plan, options.faults)
+    named = [options, *([_charger_options(options)] if options.charger_bus else [])]
+    virtual = all(map(is_virtual, named))
+    allowed = allowed_nodes(options, names, virtual=virtual)
+    if options.plan is None:
+        plan = _default_plan(allowed)
+    check(allowed, plan, options.faults)
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
-        buses = [stack.enter_context(open_bus(options))]
-        if options.charger_bus:
-            buses.append(stack.enter_context(open_bus(_charger_options(options))))
-        allowed = allowed_nodes(options, names, buses)
-        if options.plan is None:
-            plan = _default_plan(allowed)
-        LivingNodes(options, allowed, plan, buses, bus_name(buses[0], options)).live(interrupts)
+        buses = [stack.enter_context(open_bus(each)) for each in named]
+        name = bus_name(buses[0], options)
+        LivingNodes(options, allowed, plan, buses, name, virtual=virtual).live(interrupts)
     interrupts.stop_if_asked()
     return interrupts.status or 0
 

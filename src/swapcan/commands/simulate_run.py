@@ -10,7 +10,7 @@ import can
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.clock import SystemClock
-from swapcan.commands.driving import acting_nodes, are_virtual, may_act, what_they_send
+from swapcan.commands.driving import acting_nodes, what_they_send
 from swapcan.commands.simulation_report import SimulationReport
 from swapcan.console import CommandError, note
 from swapcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
@@ -18,15 +18,18 @@ from swapcan.drive.noting_bus import NotingBus
 from swapcan.process_signals import Interrupts
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.shared_bus import SharedBus
-from swapcan.simulate.simulation import Simulation, check
+from swapcan.simulate.simulation import Simulation
 
 
 def allowed_nodes(
-    options: argparse.Namespace, names: tuple[str, ...], buses: Sequence[can.BusABC]
+    options: argparse.Namespace, names: tuple[str, ...], *, virtual: bool
 ) -> tuple[str, ...]:
-    """Those of some nodes that may live on these buses; raises `CommandError` where none may."""
+    """Those of some nodes that may live on the buses; raises `CommandError` where none may.
+
+    Those that send codes that act need consent, unless the buses are ``virtual``.
+    """
     acting = acting_nodes(names)
-    if not acting or may_act(options, *buses):
+    if not acting or virtual or options.yes_drive_the_bus:
         return names
     said = f"{' and '.join(acting)} would command what acts ({what_they_send(acting)})"
     rest = tuple(name for name in names if name not in acting)
@@ -43,6 +46,8 @@ class LivingNodes:
     ----------
     buses
         The vehicle's, and the charger's where it is another.
+    virtual
+        Nobody else is on them, and nothing can be moved.
     name
         What the vehicle's bus is called.
     """
@@ -54,14 +59,15 @@ class LivingNodes:
         plan: Sequence[PlannedStep],
         buses: Sequence[can.BusABC],
         name: str,
+        *,
+        virtual: bool,
     ) -> None:
-        check(names, plan, options.faults)
         self._options = options
         self._names = names
         self._plan = plan
         self._name = name
         played = [kind.FRAME_ID for node in names for kind in PROTOCOL.sent_by(node)]
-        self._looks_out = bool(acting_nodes(names)) and not are_virtual(buses)
+        self._looks_out = bool(acting_nodes(names)) and not virtual
         self._buses = [
             NotingBus(bus, _ignore, played=played if self._looks_out else ()) for bus in buses
         ]
