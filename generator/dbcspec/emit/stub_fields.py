@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dbcspec.acting import ActingCodes
 from dbcspec.emit.kinds import Kind, kind_of
 from dbcspec.emit.stub_branches import Conditions, conditions
 from dbcspec.emit.stub_docs import field_doc, quote
-from dbcspec.model import ActingCodes, ByteOrder, Message, Signal, ValueTable
+from dbcspec.model import ByteOrder, Message, Signal, ValueTable
 from dbcspec.naming import member_names
 
 _TABLE_BITS = 10

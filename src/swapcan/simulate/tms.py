@@ -55,7 +55,7 @@ class Tms(Participant):
         self.node = Node(PROTOCOL, self.name, bus, clock=clock)
         super().__init__(self.node)
         self.outlet = self.inlet = _AMBIENT
-        self._wanted = BMS_TMS_0()
+        self._wanted = BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF)
         self._alone = True
         self._last_step = clock.now()
         self.node.on(BMS_TMS_0, self._obey)
