@@ -19,7 +19,7 @@ _KINDS = {
 
 def acting_of(row: Row, *, length: int, signed: bool) -> ActingCodes | None:
     """The codes that act, None where none does; what contradicts itself is a fault of the sheet."""
-    if not row.sheet.has("acting"):
+    if not (row.sheet.has("acting") and row.sheet.has("safe")):
         return None
     before = len(row.sheet.faults)
 

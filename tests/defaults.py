@@ -1,0 +1,24 @@
+"""Messages of which only what has to be given is given."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, TypeVar
+
+from swapcan import Message
+
+MessageT = TypeVar("MessageT", bound=Message)
+
+
+def needed_by(kind: type[Message]) -> dict[str, Any]:
+    """The fields of a message that have to be given, with their safe codes."""
+    return {
+        part.name: acting.safe
+        for part in dataclasses.fields(kind)
+        if part.default is dataclasses.MISSING and (acting := kind.FIELDS[part.name].acting)
+    }
+
+
+def default_of(kind: type[MessageT], **values: Any) -> MessageT:
+    """A message with these values, the rest as it is where it is not given, or safe."""
+    return kind(**{**needed_by(kind), **values})
