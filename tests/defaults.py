@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
+import inspect
 from typing import Any, TypeVar
 
 from swapcan import Message
@@ -12,10 +12,11 @@ MessageT = TypeVar("MessageT", bound=Message)
 
 def needed_by(kind: type[Message]) -> dict[str, Any]:
     """The fields of a message that have to be given, with their safe codes."""
+    parameters = inspect.signature(kind).parameters
     return {
-        part.name: acting.safe
-        for part in dataclasses.fields(kind)
-        if part.default is dataclasses.MISSING and (acting := kind.FIELDS[part.name].acting)
+        name: part.acting.safe
+        for name, part in kind.FIELDS.items()
+        if part.acting and parameters[name].default is inspect.Parameter.empty
     }
 
 

@@ -155,8 +155,8 @@ def test_what_contradicts_itself_is_one_fault_in_its_cell(
     assert fault.where.column == columns(sheet)[heading]
 
 
-def acting(**values: Any) -> dict[str, ActingCodes | None]:
-    facts = {"codes": (1,), "safe": 0, "reference": "here"} | values
+def acting(**values: Any) -> dict[str, Any]:
+    facts: dict[str, Any] = {"codes": (1,), "safe": 0, "reference": "here", **values}
     return {"acting": ActingCodes(**facts)}
 
 

@@ -11,6 +11,7 @@ from dbcspec.read.matrix_values import CellError, raw_of, raws_of, text_of
 ACTING_COLUMNS = ("acting", "safe", "acts_as", "acting_reference")
 """The columns that together say what acts."""
 
+_NONE: tuple[int, ...] = ()
 _KINDS = {
     **dict.fromkeys(("", "command", "命令", "指令"), False),
     **dict.fromkeys(("report", "报告", "反馈"), True),
@@ -30,7 +31,7 @@ def acting_of(row: Row, *, length: int, signed: bool) -> ActingCodes | None:
     def code(cell: CellValue) -> int | None:
         return raw_of(cell, length=length, signed=signed, hexadecimal=row.is_hex("safe"))
 
-    acting = row.read("acting", codes, ())
+    acting = row.read("acting", codes, _NONE)
     safe = row.read("safe", code, None)
     reports = row.read("acts_as", _reports, False)  # noqa: FBT003 - what stands instead
     reference = row.text("acting_reference")
