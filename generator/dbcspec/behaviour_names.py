@@ -13,12 +13,13 @@ def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:
     """Yield a fault for each name in behaviour.yaml that no message or signal has."""
     names = {message.name for message in messages}
     signals = {field.name for _, field in spec.fields()}
+    in_messages = {f"{message.name}.{field.name}" for message, field in spec.fields()}
     behaviour = spec.behaviour
     for rows, key, known in (
         (behaviour.checksums, "signal", signals),
         (behaviour.counters, "signal", signals),
         (behaviour.requests, "signal", signals),
-        (behaviour.acts, "signal", signals),
+        (behaviour.acts, "signal", signals | in_messages),
         (behaviour.requests, "answers", names),
         (behaviour.timing, "messages", names),
         (behaviour.transfers, "messages", names),

@@ -6,7 +6,18 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import ClassVar
 
-from dbcspec.schema import INTEGER, NAME, RANGE, TEXT, Record, key, list_of, nested, one_of
+from dbcspec.schema import (
+    INTEGER,
+    NAME,
+    RANGE,
+    SIGNAL,
+    TEXT,
+    Record,
+    key,
+    list_of,
+    nested,
+    one_of,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,7 +83,7 @@ class ActsRow(Record):
 
     IDENTITY: ClassVar[str] = "signal"
 
-    signal: str = key(NAME, "the signal that has the codes", required=True)
+    signal: str = key(SIGNAL, "the signal, or message.signal", required=True)
     codes: tuple[int, ...] = key(list_of(INTEGER), "the codes that act", required=True)
     safe: int = key(INTEGER, "the code that ends what they begin", required=True)
     kind: str = key(

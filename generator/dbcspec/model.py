@@ -10,13 +10,14 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
 from functools import cached_property
 
+from dbcspec.acting import ActingCodes, no_value
+from dbcspec.canonical import canonical
 from dbcspec.errors import Location
-from dbcspec.numbers import number
 
 NOWHERE = Location("")
 
@@ -73,20 +74,6 @@ class ValueTable:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ActingCodes:
-    """Codes of a signal at which its receiver acts, and ``safe``, the code that ends that.
-
-    To act is to close a contactor, to charge, heat, cool or pump. Codes with ``reports`` command
-    nothing, but say that something is on. ``reference`` is the clause.
-    """
-
-    codes: tuple[int, ...]
-    safe: int
-    reports: bool = False
-    reference: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Signal:
     """A value in a message. Physical value = raw value x factor + offset.
 
@@ -123,9 +110,9 @@ class Signal:
 
     @property
     def must_be_given(self) -> bool:
-        """Whether what stands for no value, the invalid code or else 0, is a code that acts."""
-        nothing = 0 if self.invalid_code is None else self.invalid_code
-        return self.acting is not None and nothing in self.acting.codes
+        """Whether what stands for no value, or the start value, is a code that acts."""
+        acting = self.acting.codes if self.acting else ()
+        return no_value(self.invalid_code) in acting or self.start_value in acting
 
     @property
     def raw_limits(self) -> tuple[int, int]:
@@ -300,20 +287,4 @@ class Protocol:
     @cached_property
     def digest(self) -> str:
         """16 hexadecimal digits that change whenever anything but a location changes."""
-        return hashlib.sha256(_canonical(self).encode()).hexdigest()[:16]
-
-
-def _canonical(value: object) -> str:
-    """The value as text that depends on nothing but the value."""
-    if is_dataclass(value):
-        inner = ",".join(
-            f"{part.name}={_canonical(getattr(value, part.name))}"
-            for part in fields(value)
-            if part.compare
-        )
-        return f"{type(value).__name__}({inner})"
-    if isinstance(value, tuple):
-        return f"({','.join(map(_canonical, value))})"
-    if isinstance(value, Decimal):
-        return number(value)
-    return repr(value.name) if isinstance(value, Enum) else repr(value)
+        return hashlib.sha256(canonical(self).encode()).hexdigest()[:16]

@@ -7,10 +7,12 @@ from decimal import Decimal
 from typing import TypeVar
 
 from dbcspec import model
+from dbcspec.acting import usual_start
 from dbcspec.behaviour_names import unknown_names
 from dbcspec.errors import Fault, SpecError
 from dbcspec.layout import float_limits, whole_byte
 from dbcspec.naming import field_name, shared_prefix
+from dbcspec.resolve_acts import acting_codes
 from dbcspec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
 from dbcspec.schema import Record
 from dbcspec.value_tables import ValueTables
@@ -51,15 +53,7 @@ class _Resolver:
             for timing in spec.behaviour.timing
             for message in timing.messages
         }
-        self._acting = {
-            row.signal: model.ActingCodes(
-                codes=tuple(sorted(row.codes)),
-                safe=row.safe,
-                reports=row.kind == "report",
-                reference=row.cite,
-            )
-            for row in spec.behaviour.acts
-        }
+        self._acting = acting_codes(spec, self.faults)
         self._units = spec.standard.units
 
     def protocol(self, name: str) -> model.Protocol:
@@ -185,10 +179,8 @@ class _Resolver:
         value_table = self._value_tables.of(row)
         standard = self._spec.standard
         invalid = _code_labelled(row.labels, standard.invalid_labels)
-        acting = self._acting.get(field.name)
-        usual = 0 if invalid is None or filled_in else invalid
-        if acting and usual in acting.codes:
-            usual = acting.safe
+        acting = self._acting.get(f"{message.name}.{field.name}") or self._acting.get(field.name)
+        usual = 0 if filled_in else usual_start(invalid, acting)
         unit = self._given(row, "unit", row.unit, "")
         marks = dict.fromkeys(
             mark for record in (field, *(row for _, row in rows)) for mark in record.marks

@@ -35,6 +35,7 @@ def show(protocol: Protocol, message: Message) -> str:
         list(_matrix(message)),
         list(_signals(message)),
         list(_codes(message)),
+        list(_acts(message)),
         list(_errata(protocol, message)),
     ]
     return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
@@ -118,6 +119,18 @@ def _codes(message: Message) -> Iterator[str]:
         )
         yield from _indented(f"{table.name}: {labels}")
         yield from _indented(f"    of {', '.join(names)}")
+
+
+def _acts(message: Message) -> Iterator[str]:
+    """Which codes act, and the one that ends what they begin."""
+    for signal in message.signals:
+        if acting := signal.acting:
+            labels = signal.value_table.labels() if signal.value_table else {}
+            what = "says that something is on" if acting.reports else "makes its receiver act"
+            codes = ", ".join(f"{code} {labels.get(code, '')}".strip() for code in acting.codes)
+            safe = f"{acting.safe} {labels.get(acting.safe, '')}".strip()
+            cited = f" ({acting.reference})" if acting.reference else ""
+            yield from _indented(f"{signal.name} {what}: {codes}; safe: {safe}{cited}")
 
 
 def _errata(protocol: Protocol, message: Message) -> Iterator[str]:

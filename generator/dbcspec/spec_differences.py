@@ -9,6 +9,9 @@ from decimal import Decimal
 from dbcspec.compare.pairing import MessagePair, SignalPair, pair
 from dbcspec.model import Aspect, Protocol, Signal
 
+ACTS = "codes that act"
+"""The difference in which codes of a signal act, and all that is said of them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Difference:
@@ -99,6 +102,8 @@ def _signal(signals: SignalPair, both: frozenset[Aspect]) -> Iterator[Difference
     if Aspect.PROTECTION in both:
         facts.append(("invalid code", old.invalid_code, new.invalid_code))
         facts.append(("abnormal code", old.abnormal_code, new.abnormal_code))
+    if Aspect.ACTS in both:
+        facts.append((ACTS, _acts(old), _acts(new)))
     for what, before, after in facts:
         if before != after:
             yield Difference(
@@ -116,6 +121,15 @@ def _type(signal: Signal) -> str:
 
 def _multiplexing(signal: Signal) -> tuple[bool, str, tuple[int, ...]]:
     return signal.is_selector, signal.multiplexer, signal.selectors
+
+
+def _acts(signal: Signal) -> str:
+    """The codes, the safe one, what they are and where that stands."""
+    acting = signal.acting
+    if acting is None:
+        return ""
+    codes = ", ".join(map(str, acting.codes))
+    return f"{codes} ({acting.kind}, safe {acting.safe}, {acting.reference or 'no clause'})"
 
 
 def _codes(signal: Signal, other: Signal) -> str:

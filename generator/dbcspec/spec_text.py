@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
+from dbcspec.acting import ActingCodes
 from dbcspec.model import Message, SendType, Signal
 from dbcspec.rows import ErratumRow
 from dbcspec.source import Table
@@ -52,6 +53,39 @@ def signal_row(number: int, sender: str, signal: Signal, unit: str) -> dict[str,
         "range": f"{plain(signal.minimum)}~{plain(signal.maximum)}",
         "route": f"{sender}>{','.join(signal.receivers)}",
     }
+
+
+def row_values(sender: str, signal: Signal, unit: str) -> Iterator[tuple[str, str, str]]:
+    """Difference, key and YAML text of what a table's row says; ``unit`` as it is printed.
+
+    Without a sender or receivers there is no route.
+    """
+    yield "title", "title", scalar(signal.title)
+    yield "English title", "english", scalar(signal.english)
+    yield "length", "length", str(signal.length)
+    yield "factor", "factor", plain(signal.factor)
+    yield "offset", "offset", plain(signal.offset)
+    yield "unit", "unit", scalar(unit)
+    yield "range", "range", f"{plain(signal.minimum)}~{plain(signal.maximum)}"
+    if sender and signal.receivers:
+        yield "receivers", "route", f"{sender}>{','.join(signal.receivers)}"
+
+
+def acts_values(acting: ActingCodes) -> dict[str, str]:
+    """Codes that act as an entry of the behaviour: key to YAML text, but for the signal."""
+    return {
+        "codes": f"[{', '.join(map(str, acting.codes))}]",
+        "safe": str(acting.safe),
+        "kind": acting.kind,
+        "cite": scalar(acting.reference),
+    }
+
+
+def acts_entry(signal: str, acting: ActingCodes) -> dict[str, str]:
+    """Codes that act as a new entry of the behaviour."""
+    usual = {"kind": "command", "cite": scalar("")}
+    given = {key: text for key, text in acts_values(acting).items() if text != usual.get(key)}
+    return {"signal": signal, **given}
 
 
 def labels_of(signal: Signal) -> tuple[dict[int, str], dict[int, str]]:

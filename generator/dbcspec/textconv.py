@@ -140,6 +140,7 @@ def _signal(signal: Signal, carries: frozenset[Aspect]) -> list[_Fact]:
     facts += [
         ("invalid code", signal.invalid_code),
         ("abnormal code", signal.abnormal_code),
+        *_acts(signal),
         ("reference", signal.reference),
         *_names("erratum", signal.errata),
     ]
@@ -147,6 +148,14 @@ def _signal(signal: Signal, carries: frozenset[Aspect]) -> list[_Fact]:
         return facts
     named = Aspect.VALUE_TABLE_NAMES in carries
     return [*facts, ("value table", _Bare(table.name) if named else None), *_codes(table)]
+
+
+def _acts(signal: Signal) -> Iterator[_Fact]:
+    if acting := signal.acting:
+        for code in acting.codes:
+            yield f"code that acts as {acting.kind}", code
+        yield "safe code", acting.safe
+        yield "place of the codes that act", acting.reference
 
 
 def _codes(table: ValueTable) -> Iterator[_Fact]:

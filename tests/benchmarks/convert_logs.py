@@ -120,6 +120,7 @@ def _traffic() -> Iterator[can.Message]:
 def _payloads(kind: type[Message]) -> list[bytes]:
     """Payloads with slowly changing values and a running counter."""
     modulus = kind.COUNTER.modulus if kind.COUNTER else 1
+    safe: Any = {part.name: part.acting.safe for part in kind.FIELDS.values() if part.acting}
     payloads: list[bytes] = []
     for count in range(modulus * max(1, _VALUES // modulus)):
         swing = 0.3 + 0.2 * math.sin(count / 9)
@@ -130,9 +131,9 @@ def _payloads(kind: type[Message]) -> list[bytes]:
         }
         counter = count % modulus if kind.COUNTER else None
         try:
-            payloads.append(swapcan.encode(kind(**values), counter=counter))
+            payloads.append(swapcan.encode(kind(**safe, **values), counter=counter))
         except EncodeError:  # a value that would be a reserved code
-            payloads.append(swapcan.encode(kind(), counter=counter))
+            payloads.append(swapcan.encode(kind(**safe), counter=counter))
     return payloads
 
 

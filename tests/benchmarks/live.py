@@ -21,6 +21,7 @@ from typing import NamedTuple
 import can
 from benchmarks.live_listeners import LISTENERS, PEER, Listen, bare_cantools
 from benchmarks.live_traffic import for_bmu, in_turn, of_a_pack, open_bus, sending
+from defaults import default_of
 
 import swapcan
 from swapcan import Message
@@ -195,7 +196,7 @@ def _asleep(seconds: float) -> list[float]:
 def _send_periodic(bus: can.BusABC, periods: dict[type[Message], float]) -> Iterator[None]:
     with bare_cantools(bus, lambda _: None):
         for kind, period in periods.items():
-            frame = can.Message(arbitration_id=kind.FRAME_ID, data=swapcan.encode(kind()))
+            frame = can.Message(arbitration_id=kind.FRAME_ID, data=swapcan.encode(default_of(kind)))
             bus.send_periodic(frame, period)
         try:
             yield
@@ -207,7 +208,7 @@ def _send_periodic(bus: can.BusABC, periods: dict[type[Message], float]) -> Iter
 def _send_by_node(bus: can.BusABC, periods: dict[type[Message], float]) -> Iterator[None]:
     with Node(PROTOCOL, "BMU", bus) as node:
         for kind, period in periods.items():
-            node.set(kind(), period=period)
+            node.set(default_of(kind), period=period)
         yield
 
 

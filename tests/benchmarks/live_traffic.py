@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import can
+from defaults import default_of
 
 import swapcan
 from swapcan import Message
@@ -39,7 +40,7 @@ def in_turn(*, changing: bool) -> list[can.Message]:
     """All messages that a VCU receives, in turn; those of a transfer are complete."""
     readings = itertools.cycle(_READINGS)
     known = {type(message) for message in (*_READINGS, *_CODE, _TOTALS)}
-    others = [kind() for kind in PROTOCOL.received_by("VCU") if kind not in known]
+    others = [default_of(kind) for kind in PROTOCOL.received_by("VCU") if kind not in known]
     rounds = [(*others, *_CODE, _TOTALS, next(readings)) for _ in range(_FRAMES // 17)]
     return _frames(itertools.chain.from_iterable(rounds), changing=changing)
 
@@ -47,7 +48,11 @@ def in_turn(*, changing: bool) -> list[can.Message]:
 def of_a_pack(*, changing: bool) -> list[can.Message]:
     """What a pack of 18 CSCs sends by itself, as often as it does: mostly cell voltages."""
     slow = [kind for kind in PROTOCOL.received_by("VCU") if kind.PERIOD == 0.1]
-    steady = [kind() for kind in slow if kind not in PROTOCOL.conditional and kind is not B2V_Ucell]
+    steady = [
+        default_of(kind)
+        for kind in slow
+        if kind not in PROTOCOL.conditional and kind is not B2V_Ucell
+    ]
     cells = [message for message in _READINGS if isinstance(message, B2V_Ucell)]
     probes = [message for message in _READINGS if not isinstance(message, B2V_Ucell)]
     second: list[Message] = []
@@ -59,7 +64,7 @@ def of_a_pack(*, changing: bool) -> list[can.Message]:
 def for_bmu() -> list[can.Message]:
     """What a BMU receives, over and over."""
     kinds = [kind for kind in PROTOCOL.received_by("BMU") if kind.PERIOD]
-    return _frames((kind() for _ in range(15 * 256) for kind in kinds), changing=False)
+    return _frames((default_of(kind) for _ in range(15 * 256) for kind in kinds), changing=False)
 
 
 def _frames(messages: Iterable[Message], *, changing: bool) -> list[can.Message]:

@@ -10,6 +10,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
+from dbcspec.acting import ActingCodes
 from dbcspec.model import (
     Bus,
     ByteOrder,
@@ -43,6 +44,13 @@ codes = st.lists(st.integers(0, 20), min_size=1, max_size=4, unique=True).flatma
     )
 )
 tables = st.builds(ValueTable, st.sampled_from(["State", "Mode"]), codes)
+acting = st.builds(
+    ActingCodes,
+    codes=st.sampled_from([(1,), (1, 2)]),
+    safe=st.sampled_from([0, 3]),
+    reports=st.booleans(),
+    reference=texts,
+)
 node_lists = st.lists(st.sampled_from(NODES), max_size=3, unique=True).map(tuple)
 
 
@@ -67,6 +75,7 @@ def signals(name: str) -> st.SearchStrategy[Signal]:
         invalid_code=st.none() | st.integers(0, 40),
         abnormal_code=st.none() | st.integers(0, 40),
         start_value=st.integers(0, 40),
+        acting=st.none() | acting,
         receivers=node_lists,
         is_selector=st.booleans(),
         multiplexer=texts,
@@ -199,7 +208,8 @@ def mutations(value: Any, place: str = "") -> Iterator[tuple[str, Any]]:
 def _tuple_mutations(value: tuple[Any, ...], place: str) -> Iterator[tuple[str, Any]]:
     if value:
         yield f"{place} without its last", value[:-1]
-    if len(value) > 1 and place not in ("ValueTable.codes", "Signal.selectors", "Request.answers"):
+    ordered = ("ValueTable.codes", "Signal.selectors", "Request.answers", "ActingCodes.codes")
+    if len(value) > 1 and place not in ordered:
         yield f"{place} reversed", value[::-1]
     for index, item in enumerate(value):
         for where, changed in mutations(item, place):
@@ -210,7 +220,7 @@ def _others(value: Any, place: str) -> list[Any]:
     """Values that might stand in place of a single one."""
     if place == "Protocol.frame_format":
         return ["ExtendedCAN" if value == "J1939PG" else "J1939PG"]
-    if place in ("Signal.value_table", "Message.checksum", "Message.counter"):
+    if place in ("Signal.value_table", "Signal.acting", "Message.checksum", "Message.counter"):
         return []
     if isinstance(value, bool):
         return [not value]

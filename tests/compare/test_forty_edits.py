@@ -33,6 +33,7 @@ NOT_IN_A_DBC = frozenset(
         "bus-name-same",
         "bus-nodes-same",
         "signal-invalid-code-same",
+        "signal-acts-same",
         "field-name-same",
         "erratum-same",
     }

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dbcspec import model
+from dbcspec.acting import ActingCodes
 from dbcspec.compare.registry import PROMISES
 from dbcspec.compare.run import compare, worst
 from dbcspec.model import Aspect, Protocol
@@ -36,6 +37,7 @@ PLACES_OF = {
         "Node.errata",
         "Protocol.number",
         "Erratum.because",
+        "ActingCodes.reference",
     ),
     Aspect.ADDRESSES: ("Node.address", "Node.other_addresses"),
     Aspect.PYTHON_NAMES: ("Signal.python_name",),
@@ -46,6 +48,7 @@ PLACES_OF = {
         "Signal.abnormal_code",
         "Bus.nodes",
     ),
+    Aspect.ACTS: ("ActingCodes",),
     Aspect.TRANSFERS: ("Transfer.count", "Transfer.items", "Request.withdraw"),
 }
 """Places of the model that a source without the aspect is silent about."""
@@ -107,7 +110,7 @@ def test_every_field_of_the_model_is_changed_by_some_mutation(protocol: Protocol
     kinds = (
         *(model.Protocol, model.Node, model.Bus, model.Message, model.Signal, model.Code),
         *(model.ValueTable, model.Checksum, model.Counter, model.Transfer, model.Request),
-        model.Erratum,
+        *(model.Erratum, ActingCodes),
     )
     fields = {
         f"{kind.__name__}.{part.name}"

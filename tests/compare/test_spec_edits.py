@@ -15,6 +15,7 @@ from dbcspec.project import load
 from dbcspec.report.item import Item
 
 BASE = Path(__file__).with_name("cases") / "bus-present" / "previous"
+ACTS = "acts:\n  - {signal: LAMP, codes: [15], safe: 0, cite: here}\nrequests:"
 TIMING = "timing:\n  - {name: always, condition: always, messages: [STATE]}\n"
 
 
@@ -60,6 +61,7 @@ def word(old: str, new: str) -> tuple[str, str]:
         ([(r"\bxor\b", "crc8")], "message-checksum-same", "STATE"),
         ([("items: .FIRST, SECOND.", "items: [SECOND, FIRST]")], "transfer-layout-same", "text"),
         ([("bit_rate: 250000", "bit_rate: 500000")], "bus-bit-rate-same", "body"),
+        ([("requests:", ACTS)], "signal-acts-same", "LAMP"),
         (
             [
                 (r" +- \{name: SUM,.*\n", ""),
@@ -77,6 +79,28 @@ def test_what_follows_from_an_edit_is_not_told_again(
 ) -> None:
     found = [(item.rule, item.subject) for item in findings(tmp_path, *edits)]
     assert found == [(rule, subject)]
+
+
+@pytest.mark.parametrize(
+    ("edit", "rule", "text"),
+    [
+        (("safe: 0", "safe: 1"), "signal-acts-same", "codes that act 15 as command, safe 0 → "),
+        (("cite: here", "cite: there"), "reference-same", "acts by here → "),
+    ],
+)
+def test_another_safe_code_or_clause_of_what_acts_is_told_once(
+    edit: tuple[str, str], rule: str, text: str, tmp_path: Path
+) -> None:
+    old = protocol(tmp_path / "old", ("requests:", ACTS))
+    [item] = compare(old, protocol(tmp_path / "new", ("requests:", ACTS), edit))
+    assert (item.rule, item.subject) == (rule, "LAMP")
+    assert text in item.text
+
+
+def test_a_start_value_that_does_not_follow_from_what_acts_is_told_as_well(tmp_path: Path) -> None:
+    fixed = ("name: LAMP, length: 4, start: 12", "name: LAMP, length: 4, start: 12, initial: 3")
+    items = findings(tmp_path, ("requests:", ACTS), fixed)
+    assert {item.rule for item in items} == {"signal-acts-same", "signal-start-value-same"}
 
 
 def test_a_new_name_of_a_node_that_nothing_tells_of_is_another_node(tmp_path: Path) -> None:

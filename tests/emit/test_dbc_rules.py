@@ -202,8 +202,9 @@ def test_every_node_has_its_address_and_every_message_its_frame_format(dbc: Dbc)
     assert list(dbc.values("NmStationAddress")) == dbc.nodes
 
 
-def test_start_values_are_raw_and_whole(dbc: Dbc) -> None:
+def test_every_signal_has_a_start_value_that_is_raw_and_whole(dbc: Dbc) -> None:
     limits = {f"{signal.message} {signal.name}": signal.raw_limits for signal in dbc.signals}
+    assert dbc.values("GenSigStartValue").keys() == limits.keys()
     for key, value in dbc.values("GenSigStartValue").items():
         low, high = limits[key]
         assert low <= int(value) <= high

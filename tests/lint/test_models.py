@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from decimal import Decimal
 from typing import Any
 
 import pytest
 
+from dbcspec.acting import ActingCodes
+from dbcspec.errors import Location
 from dbcspec.lint.items import rule_infos, to_items
 from dbcspec.lint.pgn_unique import RULE as PGN_UNIQUE
 from dbcspec.lint.registry import ALL_RULES
@@ -113,6 +116,26 @@ def test_the_bits_of_a_float_are_no_whole_numbers() -> None:
         length=32, is_float=True, maximum=Decimal(10) ** 30, start_value=-5, value_table=table
     )
     assert findings(message(signals=(real,)), value_tables=(table,)) == []
+
+
+def test_codes_that_act_are_held_against_signals_that_no_spec_is_behind() -> None:
+    table = ValueTable("OnOff", (Code(0, "Off", "Off"), Code(1, "On", "On")))
+    on = signal(length=2, maximum=Decimal(3), value_table=table, where=Location("m.xlsx!M", 5))
+    acts = ActingCodes(codes=(1, 4), safe=0)
+    items = found(
+        [message(signals=(replace(on, start_value=1, acting=acts),))],
+        Settings(),
+        value_tables=(table,),
+    )
+    assert [(each.rule, each.where.line) for each in items if each.rule != "code-labelled"] == [
+        ("acting-code-in-range", 5),
+        ("acting-code-labelled", 5),
+        ("start-value-safe", 5),
+    ]
+    flat = replace(on, factor=Decimal(0), acting=ActingCodes(codes=(1,), safe=0))
+    assert rules(message(signals=(flat,)), value_tables=(table,)) == ["range-fits-bits"]
+    wide = replace(on, length=10**12, acting=acts, value_table=None)
+    assert "acting-code-in-range" not in rules(message(signals=(wide,)))
 
 
 def test_a_signal_of_absurd_length_is_one_finding() -> None:

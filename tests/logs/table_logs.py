@@ -12,6 +12,7 @@ from typing import Any
 import can
 import cantools
 from cantools.database.can import Database
+from defaults import default_of, needed_by
 
 import swapcan
 from swapcan.errors import EncodeError
@@ -41,7 +42,8 @@ def payload(kind: type[Message], count: int) -> bytes:
     Every seventh has what a message has where no value is given: reserved codes.
     """
     swing = 0.3 + 0.2 * math.sin(count)
-    values: Any = {
+    values = needed_by(kind)
+    values |= {
         part.name: part.minimum + (part.maximum - part.minimum) * swing
         for part in kind.FIELDS.values()
         if isinstance(part, PhysicalField) and count % 7
@@ -50,7 +52,7 @@ def payload(kind: type[Message], count: int) -> bytes:
     try:
         return swapcan.encode(kind(**values), counter=counter)
     except EncodeError:  # a value that would be a reserved code
-        return swapcan.encode(kind(), counter=counter)
+        return swapcan.encode(default_of(kind), counter=counter)
 
 
 def traffic(seconds: float, start: float = START) -> list[can.Message]:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 import can
 import pytest
 from can.broadcastmanager import ThreadBasedCyclicSendTask
+from defaults import default_of
 from node.bench import Bench, Recorder
 
 from swapcan import Received, SwapcanError
@@ -37,7 +38,7 @@ def test_two_nodes_hear_each_other(near: can.BusABC, far: can.BusABC) -> None:
 def test_a_node_has_two_threads_whatever_it_sends(near: can.BusABC) -> None:
     before = threading.active_count()
     with Node(PROTOCOL, "BMU", near) as node:
-        node.set(*(kind() for kind in PROTOCOL.sent_by("BMU")))
+        node.set(*(default_of(kind) for kind in PROTOCOL.sent_by("BMU")))
         assert threading.active_count() == before + 2
 
 

@@ -168,6 +168,7 @@ def _message_by_cantools(message: CantoolsMessage) -> MessageFacts:
 
 
 def _signal_by_cantools(signal: CantoolsSignal) -> SignalFacts:
+    assert signal.raw_initial is not None
     return SignalFacts(
         start=signal.start,
         length=signal.length,
@@ -180,7 +181,7 @@ def _signal_by_cantools(signal: CantoolsSignal) -> SignalFacts:
         unit=signal.unit or "",
         codes=tuple((code, str(label)) for code, label in (signal.choices or {}).items()),
         receivers=frozenset(signal.receivers),
-        start_value=int(signal.raw_initial or 0),
+        start_value=int(signal.raw_initial),
         comment=signal.comment or "",
     )
 
@@ -233,6 +234,6 @@ def _signal_by_canmatrix(signal: Any) -> SignalFacts:
         unit=signal.unit,
         codes=tuple(sorted((int(code), label) for code, label in signal.values.items())),
         receivers=frozenset(signal.receivers),
-        start_value=int(signal.attributes.get("GenSigStartValue", 0)),
+        start_value=int(signal.attributes["GenSigStartValue"]),
         comment=signal.comment or "",
     )

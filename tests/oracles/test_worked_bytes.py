@@ -255,7 +255,8 @@ def test_the_bytes_worked_out_by_hand_decode_to_what_was_given(case: str) -> Non
 
 
 def test_the_high_byte_of_the_voltage_comes_first() -> None:
-    payload = encode(m.BMS_TMS_0(volt=float(0x0123)))
+    off = m.HvRequest.REQUEST_HV_OFF
+    payload = encode(m.BMS_TMS_0(volt=float(0x0123), reqst_tms_hv_on=off))
     assert (payload[1], payload[2]) == (0x01, 0x23)
 
 

@@ -10,6 +10,7 @@ import canmatrix.formats
 import cantools.database
 import pytest
 from cantools.database.can import Database
+from emit.acting_protocol import MOVING
 from read.views import by_canmatrix, of_model
 
 from dbcspec.emit.dbc import emit_dbc
@@ -81,6 +82,14 @@ def test_a_spec_made_of_the_projects_own_model_reads_as_the_same(
     protocol: Protocol, tmp_path: Path
 ) -> None:
     assert told_by_a_spec(spec_again(protocol, tmp_path)) == told_by_a_spec(protocol)
+
+
+def test_a_spec_keeps_which_codes_act_in_which_message(tmp_path: Path) -> None:
+    again = spec_again(MOVING, tmp_path)
+    assert told_by_a_spec(again) == told_by_a_spec(MOVING)
+    acting = {(message.name, each.name): each.acting for message, each in again.signals()}
+    assert acting == {(message.name, each.name): each.acting for message, each in MOVING.signals()}
+    assert "initial" not in (tmp_path / "spec" / "messages.yaml").read_text("utf-8")
 
 
 def spec_again(protocol: Protocol, folder: Path) -> Protocol:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from emit.other_protocol import OTHER
 
+from dbcspec.acting import ActingCodes
 from dbcspec.model import Aspect, Code, Message, Node, Protocol, Signal, ValueTable
 from dbcspec.read.dbc import read_dbc
 from dbcspec.textconv import textconv
@@ -99,6 +100,17 @@ def _facts(signal: Signal) -> list[str]:
         f"order {signal.byte_order.value}",
         *(f"receiver {name}" for name in signal.receivers),
         *(f'code {code.value} is "{code.label}"' for code in codes),
+    ]
+
+
+def test_codes_that_act_show_one_a_line() -> None:
+    acts = ActingCodes(codes=(1, 2), safe=0, reference="5.1")
+    new = with_signal(lambda signal: dataclasses.replace(signal, acting=acts))
+    assert changed(SMALL, new) == [
+        "+ Engine Speed: code that acts as command 1",
+        "+ Engine Speed: code that acts as command 2",
+        "+ Engine Speed: safe code 0",
+        '+ Engine Speed: place of the codes that act "5.1"',
     ]
 
 

@@ -8,6 +8,7 @@ from operator import xor
 
 import can
 import pytest
+from defaults import default_of
 
 from swapcan import Link
 from swapcan.clock import SimulatedClock
@@ -119,7 +120,7 @@ def test_a_stuck_counter_stays_as_it_was_and_the_checksum_is_right(
 
 
 @pytest.mark.parametrize(
-    ("message", "byte"), [(BSU_BMS_0(), 0), (BMS_TMS_0(), 6), (V2B_CMD(), 1)], ids=str
+    ("message", "byte"), [(BSU_BMS_0(), 0), (default_of(BMS_TMS_0), 6), (V2B_CMD(), 1)], ids=str
 )
 def test_each_message_with_a_counter_can_have_it_stuck(
     faulty: FaultyBus,

@@ -8,6 +8,7 @@ from itertools import product
 from typing import Any
 
 import pytest
+from defaults import default_of
 
 from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
@@ -72,7 +73,7 @@ def watched(request: pytest.FixtureRequest) -> Iterator[Watched]:
     with FaultyBus(SimulatedBus(wire), clock=clock) as bus, SimulatedBus(wire) as other:
         sender = Node(PROTOCOL, message.SENDER, bus, clock=clock, expect=[])
         receiver = Node(PROTOCOL, message.RECEIVERS[0], other, clock=clock, expect=[message])
-        sender.set(message(), period=message.PERIOD)
+        sender.set(default_of(message), period=message.PERIOD)
         world = World(Somebody(sender), Somebody(receiver), clock=clock, wires=[wire])
         world.after_each_step(bus.release)
         watched = Watched(message, world, bus, receiver)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from dbcspec.acting import ActingCodes
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import (
     Breaks,
@@ -15,7 +16,7 @@ from dbcspec.compare.promise import (
     protocol_change,
     signal_change,
 )
-from dbcspec.compare.spec_only import both_are_specs
+from dbcspec.compare.spec_only import both_are_specs, both_say_what_acts
 from dbcspec.model import Aspect, Message, Protocol, Signal
 
 
@@ -26,6 +27,9 @@ def _check(pairing: Pairing) -> Iterator[Change]:
             yield message_change(message, "reference", before, after)
         for signal in message.signals:
             before, after = _reference(signal.old), _reference(signal.new)
+            if both_say_what_acts(pairing) and signal.old.acting and signal.new.acting:
+                before = _with_acts(before, signal.old.acting)
+                after = _with_acts(after, signal.new.acting)
             if before != after:
                 yield signal_change(signal, "reference", before, after)
     if both_are_specs(pairing):
@@ -49,6 +53,10 @@ def _of_protocol(pairing: Pairing) -> Iterator[Change]:
 
 def _reference(item: Message | Signal) -> str:
     return f"{item.reference}; {listed(item.errata)}" if item.errata else item.reference
+
+
+def _with_acts(reference: str, acting: ActingCodes) -> str:
+    return f"{reference}; acts by {acting.reference}" if acting.reference else reference
 
 
 def _edition(protocol: Protocol) -> str:

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, signal_change
-from dbcspec.compare.spec_only import start_follows_invalid
+from dbcspec.compare.spec_only import start_follows
 from dbcspec.model import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
     for signal in pairing.signals:
         old, new = signal.old.start_value, signal.new.start_value
-        if old != new and not start_follows_invalid(pairing, signal):
+        if old != new and not start_follows(pairing, signal):
             yield signal_change(signal, "start value", str(old), str(new))
 
 

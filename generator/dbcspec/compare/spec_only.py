@@ -1,7 +1,8 @@
-"""What only a spec can say of a protocol: invalid and abnormal codes, buses."""
+"""What only a spec can say of a protocol: invalid and abnormal codes, codes that act, buses."""
 
 from __future__ import annotations
 
+from dbcspec.acting import usual_start
 from dbcspec.compare.pairing import Pairing, SignalPair
 from dbcspec.model import Aspect, Signal
 
@@ -14,14 +15,26 @@ def both_are_specs(pairing: Pairing) -> bool:
     return SPEC_ONLY in pairing.old.carries & pairing.new.carries
 
 
+def both_say_what_acts(pairing: Pairing) -> bool:
+    """Whether both sides say which codes act."""
+    return Aspect.ACTS in pairing.old.carries & pairing.new.carries
+
+
 def states(signal: Signal) -> set[int]:
     """The codes of a signal that mean invalid or abnormal."""
     return {code for code in (signal.invalid_code, signal.abnormal_code) if code is not None}
 
 
-def start_follows_invalid(pairing: Pairing, signal: SignalPair) -> bool:
-    """Whether the start value changed only because it is the invalid code, and that changed."""
+def start_follows(pairing: Pairing, signal: SignalPair) -> bool:
+    """Whether the start value is the usual one, and changed only with what makes it that.
+
+    That is the invalid code, and the codes that act; other promises tell of both.
+    """
     old, new = signal.old, signal.new
-    if old.invalid_code == new.invalid_code or not both_are_specs(pairing):
-        return False
-    return all(side.start_value == (side.invalid_code or 0) for side in (old, new))
+    told = both_are_specs(pairing) and old.invalid_code != new.invalid_code
+    told |= both_say_what_acts(pairing) and old.acting != new.acting
+    return told and all(side.start_value == _usual_start(side) for side in (old, new))
+
+
+def _usual_start(signal: Signal) -> int:
+    return usual_start(signal.invalid_code, signal.acting)

@@ -41,7 +41,7 @@ def foreign_artifacts(
 
 
 def dbc_faults(protocol: Protocol) -> list[str]:
-    """What of a protocol no DBC can say, each as one line that names the message or node."""
+    """What of a protocol no DBC can or may say, one line each that names the message or node."""
     return [
         *_name_faults(protocol),
         *_twice("message", (message.name for message in protocol.messages)),
@@ -78,6 +78,9 @@ def _twice(what: str, names: Iterable[str]) -> Iterator[str]:
 def _message_faults(message: Message) -> Iterator[str]:
     yield from _twice(f"{message.name}: signal", (signal.name for signal in message.signals))
     by_name = {signal.name: signal for signal in message.signals}
+    for signal in message.signals:
+        if signal.acting and signal.start_value in signal.acting.codes:
+            yield f"{message.name}: {signal.name} starts with {signal.start_value}, which acts"
     for signal in message.signals:
         above: list[Signal] = []
         while signal.multiplexer and signal not in above:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
+from dbcspec.acting import ActingCodes
 from dbcspec.emit.matrix_cells import LONGEST_TEXT, Value, raw_text
 from dbcspec.layout import float_limits
 from dbcspec.model import Aspect, ByteOrder, Code, Message, Protocol, SendType, Signal
@@ -153,6 +154,16 @@ def _protection(message: Message, signal: Signal) -> str | None:
     return None
 
 
+def _acting(fact: Callable[[ActingCodes], Value]) -> Callable[[Message, Signal], Value]:
+    """A fact of the codes that act, empty for signals without."""
+    return lambda _, signal: fact(signal.acting) if signal.acting else None
+
+
+def _acting_codes(_: Message, signal: Signal) -> str | None:
+    codes = signal.acting.codes if signal.acting else ()
+    return ", ".join(_code(code, signal) or "" for code in codes) or None
+
+
 def _name(message: Message, _: Signal | None = None) -> Value:
     return message.name
 
@@ -210,6 +221,28 @@ COLUMNS: tuple[Column, ...] = (
     ),
     Column(
         "异常值", "Abnormal Value (Hex)", 11, of_signal=lambda _, sig: _code(sig.abnormal_code, sig)
+    ),
+    Column("动作值", "Acting Values (Hex)", 11, of_signal=_acting_codes, needs=Aspect.ACTS),
+    Column(
+        "安全值",
+        "Safe Value (Hex)",
+        11,
+        of_signal=lambda _, sig: _code(sig.acting.safe, sig) if sig.acting else None,
+        needs=Aspect.ACTS,
+    ),
+    Column(
+        "动作类型",
+        "Acts As",
+        10,
+        of_signal=_acting(lambda acting: acting.kind.capitalize()),
+        needs=Aspect.ACTS,
+    ),
+    Column(
+        "动作依据",
+        "Acting Reference",
+        18,
+        of_signal=_acting(lambda acting: acting.reference),
+        needs=Aspect.ACTS,
     ),
     Column("单位", "Unit", 8, of_signal=lambda _, sig: sig.unit),
     Column(

@@ -18,6 +18,11 @@ _LEGEND = (
     ("Intel", "起始位为最低有效位", "the start bit is the least significant bit"),
     ("Motorola MSB", "起始位为最高有效位", "the start bit is the most significant bit"),
     ("0x…", "原始值,负数为补码", "raw value; negative ones in two's complement"),
+    (
+        "动作值 / Acting Values",
+        "接收方据此闭合接触器、充电、加热、制冷或运行水泵;安全值使其停止",
+        "the receiver closes a contactor, charges, heats, cools or pumps; the safe value ends it",
+    ),
 )
 
 

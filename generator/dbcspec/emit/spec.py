@@ -6,21 +6,18 @@ standard, which a spec makes from its own tables.
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 
+from dbcspec.acting import usual_start
+from dbcspec.emit.spec_yaml import Pairs, flow_entries, list_lines, mapping_lines, scalar
 from dbcspec.layout import float_limits
 from dbcspec.model import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
 from dbcspec.naming import field_name, shared_prefix
 from dbcspec.numbers import number
 
-_PLAIN = re.compile(r"[A-Za-z0-9_一-鿿](?:[A-Za-z0-9_./%()一-鿿-]| (?=[^ ]))*")
-_UNPRINTED = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
 _TYPES = {SendType.CYCLIC: "Cyclic", SendType.IF_ACTIVE: "IfActive", SendType.EVENT: "Event"}
-
-Pairs = Iterable[tuple[str, object]]
 
 
 def emit_spec(protocol: Protocol) -> dict[str, bytes]:
@@ -35,7 +32,7 @@ def emit_spec(protocol: Protocol) -> dict[str, bytes]:
     files = {
         "standard.yaml": _standard(protocol, repeated),
         "messages.yaml": _messages(protocol),
-        "behaviour.yaml": _behaviour(protocol),
+        "behaviour.yaml": _behaviour(protocol, repeated),
     }
     for count, message in enumerate(with_signals, start=1):
         files[f"tables/{count:0{width}}-{message.name}.yaml"] = _table(message, count, repeated)
@@ -44,16 +41,16 @@ def emit_spec(protocol: Protocol) -> dict[str, bytes]:
 
 def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
     yield "# The protocol, who takes part, on which buses, and the conventions of its tables."
-    yield f"number: {_text(protocol.number)}"
-    yield f"title: {_text(protocol.title)}"
-    yield f"english: {_text(protocol.english)}"
+    yield f"number: {scalar(protocol.number)}"
+    yield f"title: {scalar(protocol.title)}"
+    yield f"english: {scalar(protocol.english)}"
     if protocol.edition:
-        yield f"edition: {_text(protocol.edition)}"
+        yield f"edition: {scalar(protocol.edition)}"
     yield from _participants(protocol)
     yield f"frame_format: {protocol.frame_format}"
     for key, labels in _state_labels(protocol).items():
         if labels:
-            yield f"{key}: [{', '.join(map(_text, labels))}]"
+            yield f"{key}: [{', '.join(map(scalar, labels))}]"
     named = _named_tables(protocol, repeated)
     if named:
         yield "value_tables:"
@@ -61,7 +58,7 @@ def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
 
 
 def _participants(protocol: Protocol) -> Iterator[str]:
-    yield from _list(
+    yield from list_lines(
         "nodes",
         (
             [
@@ -74,7 +71,7 @@ def _participants(protocol: Protocol) -> Iterator[str]:
             for node in protocol.nodes
         ),
     )
-    yield from _list(
+    yield from list_lines(
         "buses",
         (
             [
@@ -131,7 +128,7 @@ def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator
     orders = Counter(signal.byte_order for signal in message.signals)
     order = orders.most_common(1)[0][0] if orders else usual
     yield f"  - id: 0x{message.frame_id:X}"
-    yield from _lines(
+    yield from mapping_lines(
         4,
         [
             ("name", message.name),
@@ -147,13 +144,13 @@ def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator
     prefixes = (f"{message.name}_", shared_prefix([signal.name for signal in message.signals]))
     yield "    signals:" if message.signals else "    signals: []"
     for signal in message.signals:
-        yield f"      - {{{_flow(_field(signal, order, prefixes))}}}"
+        yield f"      - {{{flow_entries(_field(signal, order, prefixes))}}}"
 
 
 def _field(signal: Signal, order: ByteOrder, prefixes: tuple[str, ...]) -> Pairs:
     derived = field_name(signal.name, prefixes)
     kind = "float" if signal.is_float else "signed"
-    usual = 0 if signal.invalid_code is None else signal.invalid_code
+    usual = usual_start(signal.invalid_code, signal.acting)
     return [
         ("name", signal.name),
         ("length", signal.length),
@@ -170,13 +167,13 @@ def _field(signal: Signal, order: ByteOrder, prefixes: tuple[str, ...]) -> Pairs
 
 def _table(message: Message, count: int, repeated: set[str]) -> Iterator[str]:
     yield f"number: {count}"
-    yield f"title: {_text(message.title)}"
-    yield f"english: {_text(message.english)}"
+    yield f"title: {scalar(message.title)}"
+    yield f"english: {scalar(message.english)}"
     yield f'clause: "{count}"'
     yield "rows:"
     for row, signal in enumerate(message.signals, start=1):
         yield f"  - no: {row}"
-        yield from _lines(4, _row(message, signal, repeated))
+        yield from mapping_lines(4, _row(message, signal, repeated))
 
 
 def _row(message: Message, signal: Signal, repeated: set[str]) -> Pairs:
@@ -200,7 +197,7 @@ def _row(message: Message, signal: Signal, repeated: set[str]) -> Pairs:
     ]
 
 
-def _behaviour(protocol: Protocol) -> Iterator[str]:
+def _behaviour(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
     yield "# What happens on the bus beyond the layout."
     messages = protocol.messages
     sections: dict[str, list[Pairs]] = {
@@ -228,6 +225,7 @@ def _behaviour(protocol: Protocol) -> Iterator[str]:
             ]
             for request in protocol.requests
         ],
+        "acts": list(_acts(protocol, repeated)),
         "timing": [
             [
                 ("name", message.name),
@@ -239,7 +237,19 @@ def _behaviour(protocol: Protocol) -> Iterator[str]:
         ],
     }
     for key, rows in sections.items():
-        yield from _list(key, rows) if rows else [f"{key}: []"]
+        yield from list_lines(key, rows) if rows else [f"{key}: []"]
+
+
+def _acts(protocol: Protocol, repeated: set[str]) -> Iterator[Pairs]:
+    for message, signal in protocol.signals():
+        if acting := signal.acting:
+            yield [
+                ("signal", _signal_name(message, signal, repeated)),
+                ("codes", acting.codes),
+                ("safe", acting.safe),
+                ("kind", acting.kind if acting.reports else None),
+                ("cite", acting.reference or None),
+            ]
 
 
 def _transfers(protocol: Protocol) -> Iterator[Pairs]:
@@ -258,39 +268,3 @@ def _transfers(protocol: Protocol) -> Iterator[Pairs]:
             ("numbering", "within_group" if transfer.numbered_within_group else None),
             ("fill", transfer.fill),
         ]
-
-
-def _list(key: str, rows: Iterable[Pairs]) -> Iterator[str]:
-    """A key with a list of mappings, nothing where there are none."""
-    lines = [f"  - {{{_flow(pairs)}}}" for pairs in rows]
-    if lines:
-        yield f"{key}:"
-        yield from lines
-
-
-def _lines(indent: int, pairs: Pairs) -> Iterator[str]:
-    for key, value in pairs:
-        if value is not None:
-            yield f"{' ' * indent}{key}: {_value(value)}"
-
-
-def _flow(pairs: Pairs) -> str:
-    return ", ".join(f"{key}: {_value(value)}" for key, value in pairs if value is not None)
-
-
-def _value(value: object) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(map(_value, value))}]"
-    if isinstance(value, Mapping):
-        inner = ", ".join(f"{key}: {_text(str(label))}" for key, label in value.items())
-        return f"{{{inner}}}"
-    return _text(value) if isinstance(value, str) else str(value)
-
-
-def _text(text: str) -> str:
-    """A scalar that YAML reads as this very text."""
-    if _PLAIN.fullmatch(text):
-        return text
-    return _UNPRINTED.sub(
-        lambda match: f"\\u{ord(match[0]):04x}", json.dumps(text, ensure_ascii=False)
-    )

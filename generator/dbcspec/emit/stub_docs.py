@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import textwrap
+from collections import Counter
+from collections.abc import Sequence
 
 from dbcspec.layout import float_limits
 from dbcspec.model import Message, Signal
@@ -25,12 +27,15 @@ def enum_doc(users: tuple[Signal, ...]) -> str:
     return _line(f"Codes of {first.name}{more}{_cited(first.reference)}.")
 
 
-def field_doc(signal: Signal) -> str:
-    """Of a field: title, limits, name in the DBC, place in the standard."""
+def field_doc(signal: Signal, says: str) -> str:
+    """Of a field: title, limits, name in the DBC, place in the standard, what acts.
+
+    ``says`` is what it states where it is not given, if that is a statement.
+    """
     english = signal.english or signal.title or signal.name
     title = f" ({signal.title})" if signal.title not in ("", english) else ""
     text = f"{english}{title}: {_limits(signal)}. {signal.name}{_cited(signal.reference)}."
-    return _wrapped(text + _acting(signal))
+    return _wrapped(text + _acting(signal) + (f" If not given: {says}." if says else ""))
 
 
 def _acting(signal: Signal) -> str:
@@ -52,15 +57,27 @@ def _limits(signal: Signal) -> str:
     return f"{number(signal.minimum)} to {number(signal.maximum)}{unit}"
 
 
-def message_doc(message: Message) -> str:
-    """Of a message: what it carries, identifier, route, when it is sent."""
+def message_doc(message: Message, said: Sequence[str], needed: Sequence[str]) -> str:
+    """Of a message: what it carries, identifier, route, when it is sent, and what is not given.
+
+    ``said`` is what its fields state where they are not given, ``needed`` which have to be.
+    """
     when = f", every {message.period} ms" if message.period else ""
     while_ = f", sent {message.condition}" if message.condition else ""
     facts = f"Identifier 0x{message.frame_id:08X}{_route(message)}{when}{while_}."
     if message.reference:
         facts += f" {message.reference}."
     title = f"{_line(message.title)}.\n\n    " if message.title else ""
-    return f"{_line(message.english or message.name)}.\n\n    {title}{_wrapped(facts)}"
+    text = f"{_line(message.english or message.name)}.\n\n    {title}{_wrapped(facts)}"
+    rest = _not_given(said, needed)
+    return f"{text}\n\n    {_wrapped(rest)}" if rest else text
+
+
+def _not_given(said: Sequence[str], needed: Sequence[str]) -> str:
+    counts = Counter(said)
+    texts = [f"{label} ({count} fields)" if count > 1 else label for label, count in counts.items()]
+    parts = [f"Fields that are not given say: {', '.join(texts)}."] if texts else []
+    return " ".join((*parts, *([f"Must be given: {', '.join(needed)}."] if needed else [])))
 
 
 def _route(message: Message) -> str:

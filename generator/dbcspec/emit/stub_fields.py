@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from dbcspec.emit.kinds import Kind, kind_of
+from dbcspec.emit.stub_acting import acting_codes
 from dbcspec.emit.stub_branches import Conditions, conditions
 from dbcspec.emit.stub_docs import field_doc, quote
-from dbcspec.model import ActingCodes, ByteOrder, Message, Signal, ValueTable
+from dbcspec.model import ByteOrder, Message, Signal, ValueTable
 from dbcspec.naming import member_names
 
 _TABLE_BITS = 10
@@ -15,12 +16,17 @@ _TABLE_BITS = 10
 
 @dataclass(frozen=True, slots=True)
 class StubField:
-    """A signal, and what the templates write for it."""
+    """A signal, and what the templates write for it.
+
+    ``default`` is None where the field has to be given, ``says`` what the default states, if it
+    is more than a number or that there is no value.
+    """
 
     signal: Signal
     kind: Kind
     annotation: str
     default: str | None
+    says: str
     doc: str
     expression: str
     arguments: tuple[tuple[str, str], ...]
@@ -45,12 +51,14 @@ def _bit_order(signal: Signal) -> int:
 def _field(message: Message, signal: Signal, index: int, when: Conditions) -> StubField:
     kind = kind_of(message, signal)
     absent = " | None" if when and kind is not Kind.FILLED else ""
+    says = "" if when or kind is Kind.FILLED else _statement(signal)
     return StubField(
         signal=signal,
         kind=kind,
         annotation=_annotation(signal, kind) + absent,
         default="None" if when else None if signal.must_be_given else _default(signal, kind),
-        doc=field_doc(signal),
+        says=says,
+        doc=field_doc(signal, says),
         expression=_expression(signal, kind, f"v[{index}]"),
         arguments=tuple(_arguments(signal, kind)),
         conditions=when,
@@ -87,6 +95,15 @@ def _default(signal: Signal, kind: Kind) -> str:
     if raw in _states(signal):
         return f"SignalState.{_states(signal)[raw]}"
     return _float(_physical(signal, raw)) if kind is Kind.PHYSICAL else str(raw)
+
+
+def _statement(signal: Signal) -> str:
+    """The label of what is sent for a field that is not given, unless it says that it is none."""
+    if signal.must_be_given or signal.value_table is None:
+        return ""
+    if signal.start_value == signal.invalid_code:
+        return ""
+    return signal.value_table.labels().get(signal.start_value, "")
 
 
 def _physical(signal: Signal, raw: int) -> float:
@@ -155,15 +172,8 @@ def _arguments(signal: Signal, kind: Kind) -> list[tuple[str, str]]:
     if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
         arguments.append(("labels", f"enums.{labels_name(signal.value_table)}"))
     if signal.acting:
-        arguments.append(("acting", _acting(signal.acting)))
+        arguments.append(("acting", acting_codes(signal.acting)))
     return arguments
-
-
-def _acting(acting: ActingCodes) -> str:
-    codes = f"frozenset({{{', '.join(map(str, acting.codes))}}})"
-    facts = [f"codes={codes}", f"safe={acting.safe}"]
-    facts += ["reports=True"] if acting.reports else []
-    return f"ActingCodes({', '.join(facts)})"
 
 
 def _enum_name(signal: Signal) -> str:

@@ -53,7 +53,7 @@ def emit_stubs(protocol: Protocol, runtime: str, package: str = "") -> dict[str,
         "class_of": class_name,
         "class_names": sorted(map(class_name, protocol.messages)),
         "function_of": _function_names(protocol).__getitem__,
-        "doc": message_doc,
+        "doc": _doc,
         "whole_byte": whole_byte,
         "signal_of": lambda message, name: next(s for s in message.signals if s.name == name),
         "quote": quote,
@@ -124,6 +124,11 @@ def _head(function: str, name: str) -> str:
     if len(line) <= _LONGEST_LINE:
         return line
     return f"def {function}(\n    v: Sequence[int],\n) -> messages.{name}:"
+
+
+def _doc(message: Message, fields: list[StubField]) -> str:
+    said = [field.says for field in fields if field.says]
+    return message_doc(message, said, [f.signal.python_name for f in fields if f.default is None])
 
 
 def _receivers(message: Message) -> str:

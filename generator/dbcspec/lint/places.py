@@ -23,6 +23,7 @@ class Places:
         for _, row in spec.rows() if spec else ():
             self._by_signal.setdefault(row.signal, row)
         self._fields = {field.where: field for _, field in spec.fields()} if spec else {}
+        self._acts = {row.signal: row for row in spec.behaviour.acts} if spec else {}
         self._messages = {row.where: row for row in spec.messages.messages} if spec else {}
         self._naming = spec.standard.value_tables if spec else {}
         self._named_at = spec.standard.where_is("value_tables") if spec else NOWHERE
@@ -40,6 +41,11 @@ class Places:
         """A key of the annex row that places a signal in its message."""
         field = self._fields.get(signal.where)
         return field.where_is(key) if field else signal.where
+
+    def acts(self, message: Message, signal: Signal, key: str) -> Location:
+        """A key of the row that says which codes of a signal act."""
+        row = self._acts.get(f"{message.name}.{signal.name}") or self._acts.get(signal.name)
+        return row.where_is(key) if row else signal.where
 
     def message(self, message: Message, key: str) -> Location:
         """A key of a message in the annex."""

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dbcspec.lint import (
+    acting_code_chosen,
+    acting_code_in_range,
+    acting_code_labelled,
     attribute_default,
     branches_overlap,
     broadcast_receivers,
@@ -31,6 +34,7 @@ from dbcspec.lint import (
     signals_overlap,
     source_address,
     start_value_in_range,
+    start_value_safe,
     table_annex_agree,
     tables_agree,
     text_ascii,
@@ -55,9 +59,13 @@ RULES: tuple[Rule, ...] = (
     range_fits_bits.RULE,
     scale_digits.RULE,
     start_value_in_range.RULE,
+    start_value_safe.RULE,
     unit_known.RULE,
     code_in_raw_range.RULE,
     code_labelled.RULE,
+    acting_code_labelled.RULE,
+    acting_code_in_range.RULE,
+    acting_code_chosen.RULE,
     period_given.RULE,
     bus_load.RULE,
     comment_given.RULE,

@@ -8,6 +8,7 @@ from pathlib import Path
 from dbcspec.errors import Fault, ReadError, SpecError
 from dbcspec.model import Aspect, Bus, Erratum, Node, Protocol
 from dbcspec.read import matrix_headings as known
+from dbcspec.read.matrix_acting import ACTING_COLUMNS
 from dbcspec.read.matrix_grid import CellValue, Grid, read_grids
 from dbcspec.read.matrix_messages import read_messages
 from dbcspec.read.matrix_row import Row, Sheet, open_sheet
@@ -89,6 +90,7 @@ def _carries(sheet: Sheet, grids: list[Grid]) -> Iterator[Aspect]:
         (Aspect.REFERENCES, ("reference", "errata")),
         (Aspect.VALUE_TABLE_NAMES, ("value_table",)),
         (Aspect.PROTECTION, ("protection",)),
+        (Aspect.ACTS, ACTING_COLUMNS),
     ):
         if all(map(sheet.has, keys)):
             yield aspect

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 
+from dbcspec.acting import usual_start
 from dbcspec.layout import float_limits
 from dbcspec.model import ByteOrder, Code, Signal, ValueTable
+from dbcspec.read.matrix_acting import acting_of
 from dbcspec.read.matrix_grid import CellValue
 from dbcspec.read.matrix_headings import normal
 from dbcspec.read.matrix_row import Row
@@ -82,6 +84,8 @@ class SignalDraft:
         given = _Given(length, factor, offset, signed, is_float)
         multiplexing = row.read("multiplexing", _multiplexing, _NOT_MULTIPLEXED)
         byte_order, start = self._place(length)
+        acting = acting_of(row, length=length, signed=signed)
+        initial = usual_start(None, acting) if raw["initial"] is None else raw["initial"]
         return Signal(
             name=name,
             title=row.text("title"),
@@ -101,7 +105,8 @@ class SignalDraft:
             ),
             invalid_code=raw["invalid"],
             abnormal_code=raw["abnormal"],
-            start_value=raw["initial"] or 0,
+            start_value=initial,
+            acting=acting,
             receivers=tuple(dict.fromkeys([*self.receivers, *names_of(row.text("receivers"))])),
             is_selector=multiplexing[0],
             multiplexer=multiplexing[2],

@@ -95,6 +95,17 @@ def raw_of(cell: CellValue, *, length: int, signed: bool, hexadecimal: bool) -> 
     return _from_bits(int(match[1], 16), length, signed=signed)
 
 
+def raws_of(cell: CellValue, *, length: int, signed: bool, hexadecimal: bool) -> tuple[int, ...]:
+    """Raw values in a list, ascending, each as `raw_of` reads it; none where the cell is empty."""
+    parts = (part for part in re.split(r"[,;、，；\n]+", text_of(cell)) if part.strip())
+    cells = (CellValue(cell.where, "s", part) for part in parts)
+    found = [raw_of(each, length=length, signed=signed, hexadecimal=hexadecimal) for each in cells]
+    values = sorted(value for value in found if value is not None)
+    if len(set(values)) < len(values):
+        raise CellError(f"a value stands twice in {_short(cell.text)}")
+    return tuple(values)
+
+
 def codes_of(text: str, *, length: int, signed: bool) -> dict[int, str]:
     """Codes and labels, one a line: ``0x0: Open``; a line without a code continues a label."""
     codes: dict[int, str] = {}
