@@ -20,6 +20,7 @@ from swapcan.messages import (
     AccessoryHvCommand,
     HeatCommand,
     HvCommand,
+    HvRequest,
 )
 
 
@@ -81,7 +82,7 @@ def test_the_counters_of_each_message_run_on_their_own_and_wrap(
     for _ in range(300):
         link.send(V2B_CMD())
         seen["V2B_CMD"].append(received(far).data[1] & 0x0F)
-        link.send(BMS_TMS_0())
+        link.send(BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF))
         seen["BMS_TMS_0"].append(received(far).data[6])
         link.send(BSU_BMS_0())
         seen["BSU_BMS_0"].append(received(far).data[0])
@@ -106,10 +107,13 @@ def test_a_checksum_that_the_standard_leaves_open_is_the_users(
     near: can.BusABC, far: can.BusABC
 ) -> None:
     codec = Codec(algorithms={"BMS_CRC": lambda data: sum(data) & 0xFF})
+    command = BMS_TMS_0(
+        reqst_tms_hv_on=HvRequest.REQUEST_HV_ON, volt=0x0203, set_temp=0.0, crc=0x99
+    )
     link = Link(near, codec=codec)
-    link.send(BMS_TMS_0(volt=0x0203, set_temp=0.0, crc=0x99))
+    link.send(command)
     assert received(far).data.hex() == "000203002800002d"  # 2 + 3 + 40
-    Link(near).send(BMS_TMS_0(volt=0x0203, set_temp=0.0, crc=0x99))
+    Link(near).send(command)
     assert received(far).data.hex() == "0002030028000000"
 
 
@@ -122,11 +126,11 @@ def test_a_checksum_that_the_standard_leaves_open_is_the_users(
         (B2V_ST2(soc=math.nan), "soc", "nan is not a finite number"),
         (B2V_ST2(soc=math.inf), "soc", "inf is not a finite number"),
         (B2V_ST2(soc=-math.inf), "soc", "-inf is not a finite number"),
-        (B2V_ST2(soc="80"), "soc", "expected a number, not '80'"),  # type: ignore[arg-type]
+        (B2V_ST2(soc="80"), "soc", "expected a number, 0 to 102 %, not '80'"),  # type: ignore[arg-type]
         (B2V_ST2(soc=SignalState.ABNORMAL), "soc", "has no code for Abnormal"),
         (B2V_ST5(max_ucell=8.19), "max_ucell", "raw 8190, which means Abnormal"),
-        (V2B_CMD(hv_on_off=4), "hv_on_off", "code 4"),
-        (V2B_CMD(hv_on_off="HV Onn"), "hv_on_off", "unknown label 'HV Onn'"),  # type: ignore[arg-type]
+        (V2B_CMD(hv_on_off=4), "hv_on_off", "4 is no HvCommand"),  # type: ignore[arg-type]
+        (V2B_CMD(hv_on_off="HV Onn"), "hv_on_off", "'HV Onn' is no HvCommand"),  # type: ignore[arg-type]
         (V2B_VIN(b1_8_15="é"), "b1_8_15", "is none of the characters"),
     ],
 )

@@ -10,7 +10,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.bus import Received
 from swapcan.clock import Clock, SystemClock
-from swapcan.message import SignalState
+from swapcan.message import Code2, SignalState
 from swapcan.messages import (
     BMS_TMS_0,
     TMS_BMS_0,
@@ -55,7 +55,7 @@ class Tms(Participant):
         self.node = Node(PROTOCOL, self.name, bus, clock=clock)
         super().__init__(self.node)
         self.outlet = self.inlet = _AMBIENT
-        self._wanted = BMS_TMS_0()
+        self._wanted = BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF)
         self._alone = True
         self._last_step = clock.now()
         self.node.on(BMS_TMS_0, self._obey)
@@ -63,7 +63,7 @@ class Tms(Participant):
         self.node.supply(TMS_BMS_0, self._report)
 
     @property
-    def mode(self) -> ThermalMode | int:
+    def mode(self) -> ThermalMode | Code2:
         """What it does."""
         if self._alone or self.has("tms_fault"):
             return ThermalMode.OFF
