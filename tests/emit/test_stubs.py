@@ -155,9 +155,7 @@ def test_the_text_of_a_field_has_title_range_name_and_table_row(
     root: Path, protocol: Protocol
 ) -> None:
     source = (root / "src" / "swapcan" / "_generated" / "messages.py").read_text("utf-8")
-    texts = re.findall(
-        r'^    (\w+): [^"]*?\n    """(.*?)"""', source, re.MULTILINE | re.DOTALL
-    )
+    texts = re.findall(r'^    (\w+): [^"]*?\n    """(.*?)"""', source, re.MULTILINE | re.DOTALL)
     assert len(texts) == sum(1 for _ in protocol.signals())
     flat = {(field, " ".join(text.split())) for field, text in texts}
     for _, signal in protocol.signals():
