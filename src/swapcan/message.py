@@ -77,6 +77,10 @@ class Message:
     Class attributes: ``NAME`` and ``FRAME_ID`` of the standard, ``LENGTH`` in bytes, ``SENDER``
     and ``RECEIVERS``, ``PERIOD`` in seconds or None where it is sent on events only, ``FIELDS``
     by name in the order of their bits, ``CHECKSUM`` and ``COUNTER`` where there is one.
+
+    A message is what it was made with; `to_raw` and sending refuse values that its fields cannot
+    carry. A field with codes takes its own enum or a plain code; an int that is known at run time
+    only satisfies type checkers as ``HvCommand(number)``.
     """
 
     __slots__ = ()
