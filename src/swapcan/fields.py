@@ -47,7 +47,7 @@ class ActingCodes:
 Value = float | int | str | SignalState | None
 """What a field of a message can hold."""
 
-_FLOATS = {16: "<e", 32: "<f", 64: "<d"}
+_SHORT_FLOATS = {16: "<e", 32: "<f"}
 """Formats of `struct` by their bits; one of native order makes infinity of what is too large."""
 
 
@@ -162,7 +162,8 @@ class FloatField(PhysicalField):
         if type(value) is SignalState:
             return self._state(message, value)
         number = value if type(value) is float else self._number(message, value)
-        PhysicalField.to_raw(self, message, number)
+        if not self.minimum <= number <= self.maximum:
+            raise self._refuse(message, value, self._outside(number))
         raw = (number - self.offset) / self.factor
         if not self._has_room(raw):
             problem = f"{number:g} has no room in a float of {self.length} bits"
@@ -171,7 +172,7 @@ class FloatField(PhysicalField):
 
     def _has_room(self, raw: float) -> bool:
         try:
-            struct.pack(_FLOATS.get(self.length, "<d"), raw)
+            struct.pack(_SHORT_FLOATS.get(self.length, "<d"), raw)
         except OverflowError:
             return False
         return math.isfinite(raw)
