@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from enum import IntEnum
 from pathlib import Path
 from types import ModuleType
+from typing import Literal
 
 import cantools
 import pytest
@@ -23,6 +24,7 @@ from dbcspec.emit.stubs import emit_stubs
 from dbcspec.model import Protocol, ValueTable
 from swapcan import SignalState
 from swapcan import messages as m
+from swapcan.message import Code2, Code5
 from swapcan.messages import MESSAGES
 from swapcan.packing import Packer
 
@@ -93,11 +95,11 @@ def test_signals_with_equal_codes_share_one_enum(protocol: Protocol) -> None:
     enums: dict[ValueTable | None, set[str]] = {}
     for message, signal in protocol.signals():
         for part in typing.get_args(hints(message.name)[signal.python_name]):
-            if issubclass(part, IntEnum):
+            if isinstance(part, type) and issubclass(part, IntEnum):
                 enums.setdefault(signal.value_table, set()).add(part.__name__)
     assert {table.name for table in enums if table} == {name for (name,) in enums.values()}
-    assert typing.get_type_hints(m.B2V_ST0)["st_main_pos"] == m.RelayState | int
-    assert typing.get_type_hints(m.V2B_CMD)["att_con_st1"] == m.RelayState | int
+    assert typing.get_type_hints(m.B2V_ST0)["st_main_pos"] == m.RelayState | Code2
+    assert typing.get_type_hints(m.V2B_CMD)["att_con_st1"] == m.RelayState | Code2
 
 
 def hints(message: str) -> dict[str, object]:
@@ -117,7 +119,9 @@ def test_the_members_of_an_enum_are_the_codes_of_the_table(protocol: Protocol) -
         (m.B2V_ST2, "soc", float | SignalState),
         (m.V2B_CMD, "vehicle_speed", float),
         (m.B2V_ST4, "max_temp", float | SignalState),
-        (m.B2V_ST1, "chg_st", m.ChargeState | int),
+        (m.B2V_ST1, "chg_st", m.ChargeState | Literal[0, 1, 2, 3]),
+        (m.B2V_ST0, "flt_main_pos_relay_weld", m.FaultFlag | Literal[0, 1]),
+        (m.B2V_SysCode1, "sys_code_length", m.PackCodeLength | Code5),
         (m.V2B_VIN, "b1_8_15", str | int),
         (m.B2V_SysCode4, "sys_code_b27", str | int),
         (m.V2B_VIN, "frame_no", int),

@@ -55,6 +55,17 @@ def test_the_values_printed_are_those_that_went_out(
 
 
 REFUSED = {
+    ("B2C_Charger", "voltage_set=700", "current_set=50"): (
+        "B2C_Charger.charge_control has to be given: left out it would be sent as Start to charge;"
+        " it knows Start to charge, Normal Stop to charge, Fault - Stop to charge\n"
+    ),
+    ("BMS_TMS_0",): (
+        "BMS_TMS_0.reqst_tms_hv_on has to be given: left out it would be sent as Request HV on;"
+        " it knows Request HV on, Request HV off\n"
+    ),
+    ("C2B_ACStatus", "charger_ready=0"): (
+        "C2B_ACStatus.charger_start has to be given: left out it would be sent as On; it knows On, "
+    ),
     ("B2V_ST22",): "there is no message 'B2V_ST22'; did you mean B2V_ST2 or ",
     ("Motor",): "there is no message 'Motor'; known are V2B_CMD, B2V_RQ, ",
     ("B2V_ST2", "sok=1"): "B2V_ST2 has no field 'sok'; did you mean ",
@@ -70,7 +81,8 @@ REFUSED = {
     ("B2V_ST2", "soc=-inf"): "B2V_ST2.soc: -inf is not a finite number; allowed are 0 to 102 %",
     ("B2V_ST2", "soc=abnormal"): "B2V_ST2.soc: has no code for Abnormal",
     ("B2V_ST1", "bms=open"): "B2V_ST1.bms: unknown label 'open'; known are HV open, Precharge, HV",
-    ("B2V_ST1", "bms=4"): "B2V_ST1.bms: code 4 is out of range; allowed are 0 to 3",
+    ("B2V_ST1", "bms=4"): "B2V_ST1.bms: 4 is no BmsState: expected BmsState or a code 0 to 3",
+    ("B2V_ST2", "soc=1e400"): "B2V_ST2.soc: inf is not a finite number; allowed are 0 to 102 %",
     ("B2V_ST1", "aliv=3"): "B2V_ST1.aliv is filled in when sending",
     ("B2V_ST1", "B2V_ST1_Checksum=3"): "B2V_ST1.checksum is filled in when sending",
     ("B2V_BattInfo1", "batt_type=Reserved"): "'Reserved' is each of the codes 10, 11, 12, 13",
@@ -99,6 +111,31 @@ def test_what_cannot_be_sent_is_one_line_and_no_bus_is_opened(
     assert errors.startswith("swapcan: ")
     assert text in errors
     assert errors.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("word", "text"),
+    [
+        ("bms={}", "B2V_ST1.bms: unknown label '{}"),
+        ("{}=1", "B2V_ST1 has no field '{}"),
+        ("{}", "expected FIELD=VALUE, not '{}"),
+    ],
+)
+def test_of_what_is_too_long_the_error_shows_a_part(word: str, text: str, capsys: Capture) -> None:
+    assert send("nowhere", "B2V_ST1", word.format(1000 * "x")) == 2
+    errors = capsys.readouterr().err
+    assert text.format("xxxxxxxxxx") in errors
+    assert errors.count("x") < 100
+    assert errors.count("\n") == 1
+
+
+def test_a_number_of_any_length_is_refused_in_a_short_line(capsys: Capture) -> None:
+    for digits in (100, 4000, 5000):
+        for field in ("bms", "gbt32960_flt_num"):
+            assert send("nowhere", "B2V_ST1", f"{field}={digits * '9'}") == 2
+            errors = capsys.readouterr().err
+            assert errors.startswith(f"swapcan: B2V_ST1.{field}: ")
+            assert len(errors) < 250
 
 
 @pytest.mark.parametrize(

@@ -123,11 +123,11 @@ def test_a_checksum_that_the_standard_leaves_open_is_the_users(
         (B2V_ST2(soc=math.nan), "soc", "nan is not a finite number"),
         (B2V_ST2(soc=math.inf), "soc", "inf is not a finite number"),
         (B2V_ST2(soc=-math.inf), "soc", "-inf is not a finite number"),
-        (B2V_ST2(soc="80"), "soc", "expected a number, not '80'"),  # type: ignore[arg-type]
+        (B2V_ST2(soc="80"), "soc", "expected a number, 0 to 102 %, not '80'"),  # type: ignore[arg-type]
         (B2V_ST2(soc=SignalState.ABNORMAL), "soc", "has no code for Abnormal"),
         (B2V_ST5(max_ucell=8.19), "max_ucell", "raw 8190, which means Abnormal"),
-        (V2B_CMD(hv_on_off=4), "hv_on_off", "code 4"),
-        (V2B_CMD(hv_on_off="HV Onn"), "hv_on_off", "unknown label 'HV Onn'"),  # type: ignore[arg-type]
+        (V2B_CMD(hv_on_off=4), "hv_on_off", "4 is no HvCommand"),  # type: ignore[arg-type]
+        (V2B_CMD(hv_on_off="HV Onn"), "hv_on_off", "'HV Onn' is no HvCommand"),  # type: ignore[arg-type]
         (V2B_VIN(b1_8_15="é"), "b1_8_15", "is none of the characters"),
     ],
 )

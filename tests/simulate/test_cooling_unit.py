@@ -75,13 +75,16 @@ def test_heating_makes_the_inlet_the_colder_end(unit: Unit) -> None:
 
 
 @pytest.mark.parametrize(
-    "change",
-    [{"hv_rly_sts": HvRelayState.OPEN}, {"reqst_tms_hv_on": HvRequest.REQUEST_HV_OFF}],
+    "wanted",
+    [
+        replace(COOL, hv_rly_sts=HvRelayState.OPEN),
+        replace(COOL, reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF),
+    ],
     ids=["pack_open", "not_requested"],
 )
-def test_without_high_voltage_it_only_circulates(unit: Unit, change: dict[str, int]) -> None:
+def test_without_high_voltage_it_only_circulates(unit: Unit, wanted: BMS_TMS_0) -> None:
     _, bmu, _ = unit
-    bmu.say(replace(COOL, **change))
+    bmu.say(wanted)
     bmu.run(2.1)
     last = bmu.last(TMS_BMS_0)
     assert (last.work_sts, last.hv_rly_sts) == (ThermalMode.SELF_CIRCULATION, HvRelayState.OPEN)

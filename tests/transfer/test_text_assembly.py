@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from transfer.wire import ALPHABET, delivered
 
+from swapcan.message import Code5
 from swapcan.messages import B2V_ST2, V2B_VIN, B2V_SysCode1, Manufacturer
 from swapcan.transfer import (
     PackCode,
@@ -190,7 +191,7 @@ def test_a_wrong_check_digit_is_reported_where_it_is_asked_for() -> None:
         (28, "length 28; the frames carry 27 characters"),
     ],
 )
-def test_a_pack_code_without_a_possible_length_is_reported(length: int, text: str) -> None:
+def test_a_pack_code_without_a_possible_length_is_reported(length: Code5, text: str) -> None:
     assembler = PackCodeAssembler(rounds=1)
     _, *others = split_pack_code(CODE)
     refused = B2V_SysCode1(sys_code_length=length)

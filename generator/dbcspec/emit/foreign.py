@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from dbcspec.emit.dbc import emit_dbc
-from dbcspec.emit.stubs import class_name, emit_stubs
+from dbcspec.emit.stubs import TAKEN, class_name, emit_stubs
 from dbcspec.errors import ReadError
 from dbcspec.model import Message, Protocol, Signal, ValueTable
 from dbcspec.naming import snake_case
@@ -113,7 +113,7 @@ def _text_faults(protocol: Protocol) -> Iterator[str]:
 def with_python_names(protocol: Protocol) -> Protocol:
     """The protocol with names of fields and enums that Python can have beside each other."""
     taken = {class_name(message).lower() for message in protocol.messages}
-    taken |= {name.lower() for name in (*keyword.kwlist, *dir(builtins))}
+    taken |= {name.lower() for name in TAKEN}
     tables: dict[ValueTable, ValueTable] = {}
     for table in dict.fromkeys(
         (*protocol.value_tables, *(each.value_table for _, each in protocol.signals()))

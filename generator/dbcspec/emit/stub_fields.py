@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from dbcspec.emit.kinds import Kind, kind_of
@@ -12,6 +13,8 @@ from dbcspec.model import ByteOrder, Message, Signal, ValueTable
 from dbcspec.naming import member_names
 
 _TABLE_BITS = 10
+_CODE_BITS = 8
+"""The runtime has types of codes for up to so many bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +76,7 @@ def _states(signal: Signal) -> dict[int, str]:
 def _annotation(signal: Signal, kind: Kind) -> str:
     state = " | SignalState" if _states(signal) else ""
     if kind is Kind.LABELLED:
-        return f"{_enum_name(signal)} | int"
+        return f"{_enum_name(signal)} | {code_type(signal) or 'int'}"
     return {
         Kind.PHYSICAL: f"float{state}",
         Kind.FLOAT: "float",
@@ -81,6 +84,15 @@ def _annotation(signal: Signal, kind: Kind) -> str:
         Kind.CHARACTER: f"str | int{state}",
         Kind.FILLED: f"int{state} | None",
     }[kind]
+
+
+def code_type(signal: Signal) -> str | None:
+    """The type of the plain codes of a labelled field, which admits no other enum and no bool.
+
+    None where there are too many codes to list, or negative ones: they are ``int``.
+    """
+    short = signal.length <= _CODE_BITS and not signal.signed
+    return f"Code{signal.length}" if short else None
 
 
 def _default(signal: Signal, kind: Kind) -> str:
@@ -153,27 +165,50 @@ def _arguments(signal: Signal, kind: Kind) -> list[tuple[str, str]]:
             ("minimum", _float(float(signal.minimum))),
             ("maximum", _float(float(signal.maximum))),
         ]
-    low, high = signal.raw_range
+    low, high = _sendable(signal, kind)
     if kind is Kind.PHYSICAL:
+        minimum, maximum = _physical_limits(signal, low, high)
         arguments += [
             ("factor", _float(float(signal.factor))),
             ("offset", _float(float(signal.offset))),
-            ("minimum", _float(_physical(signal, low))),
-            ("maximum", _float(_physical(signal, high))),
+            ("minimum", _float(minimum)),
+            ("maximum", _float(maximum)),
         ]
     else:
-        if kind is Kind.LABELLED and signal.value_table:
-            codes = [code.value for code in signal.value_table.codes]
-            low, high = min(low, *codes), max(high, *codes)
         arguments += [("minimum", str(low)), ("maximum", str(high))]
     if states := _states(signal):
         inner = ", ".join(f"{code}: SignalState.{state}" for code, state in states.items())
         arguments.append(("states", f"{{{inner}}}"))
     if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
         arguments.append(("labels", f"enums.{labels_name(signal.value_table)}"))
+    if kind is Kind.LABELLED:
+        arguments.append(("enum", f"enums.{_enum_name(signal)}"))
     if signal.acting:
         arguments.append(("acting", acting_codes(signal.acting)))
     return arguments
+
+
+def _sendable(signal: Signal, kind: Kind) -> tuple[int, int]:
+    """The raw values of the range and, where they make the field, of the codes; if they fit."""
+    (low, high), (least, most) = signal.raw_range, signal.raw_limits
+    if kind is Kind.LABELLED and signal.value_table:
+        codes = [code.value for code in signal.value_table.codes]
+        low, high = min(low, *codes), max(high, *codes)
+    return max(low, least), min(high, most)
+
+
+def _physical_limits(signal: Signal, low: int, high: int) -> tuple[float, float]:
+    """The physical values of the raw ends; those of over 53 bits, rounded towards each other."""
+    factor, offset = float(signal.factor), float(signal.offset)
+    ends = sorted(_physical(signal, raw) for raw in (low, high))
+    middle = sum(ends) / 2
+
+    def inwards(value: float) -> float:
+        while not low <= round((value - offset) / factor) <= high and value != middle:
+            value = math.nextafter(value, middle)
+        return value
+
+    return inwards(ends[0]), inwards(ends[1])
 
 
 def _enum_name(signal: Signal) -> str:

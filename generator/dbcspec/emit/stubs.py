@@ -11,6 +11,7 @@ from dbcspec.emit.stub_docs import enum_doc, message_doc, quote
 from dbcspec.emit.stub_fields import (
     StubField,
     code_table_name,
+    code_type,
     fields_of,
     has_short_table,
     labels_name,
@@ -22,11 +23,12 @@ from dbcspec.layout import whole_byte
 from dbcspec.model import Message, Protocol
 
 _LONGEST_LINE = 100
-_TAKEN = {
+TAKEN = {
     *keyword.kwlist,
     *dir(builtins),
     *(kind.value for kind in Kind),
     *("MESSAGES", "Any", "ClassVar", "Mapping", "dataclass", "enums", "annotations", "messages"),
+    *(f"Code{bits}" for bits in range(1, 9)),
     *("Message", "SignalState", "Checksum", "Counter", "ActingCodes", "Field", "fields_by_name"),
 }
 """What stands in the modules of the stubs already."""
@@ -46,7 +48,7 @@ def emit_stubs(protocol: Protocol, runtime: str, package: str = "") -> dict[str,
         "package": package,
         "enums_module": f"{package.rstrip('.')}.enums",
         "stubs": stubs,
-        "imports": _imports(protocol, {field.kind for _, fields in stubs for field in fields}),
+        "imports": _imports(protocol, [field for _, fields in stubs for field in fields]),
         "code_tables": _code_tables(stubs),
         "branches": Branches(protocol),
         "selected": selected,
@@ -83,24 +85,25 @@ def _enum_context(protocol: Protocol, fields: list[StubField]) -> dict[str, obje
         "enums": [(table, members(table), enum_doc(users)) for table, users in tables.items()],
         "labelled": labelled,
         "used_enums": sorted((table.name for table in tables), key=str.lower),
-        "floats": any(field.kind is Kind.FLOAT for field in fields),
         "multiplexed": any(field.conditions for field in fields),
     }
 
 
-def _imports(protocol: Protocol, kinds: set[Kind]) -> list[str]:
-    """What the messages take from the runtime; `FloatField` they bring along."""
+def _imports(protocol: Protocol, fields: list[StubField]) -> list[str]:
+    """What the messages take from the runtime."""
     names = {"Field", "Message", "SignalState", "fields_by_name"}
     names |= {"Checksum" for message in protocol.messages if message.checksum}
     names |= {"Counter" for message in protocol.messages if message.counter}
     names |= {"ActingCodes" for _, signal in protocol.signals() if signal.acting}
-    names |= {(Kind.PHYSICAL if kind is Kind.FLOAT else kind).value for kind in kinds}
+    names |= {field.kind.value for field in fields}
+    codes = {code_type(field.signal) for field in fields if field.kind is Kind.LABELLED}
+    names |= {name for name in codes if name}
     return sorted(names, key=_import_order)
 
 
 def class_name(message: Message) -> str:
     """The class of a message: its name, if that is not taken in the modules of the stubs."""
-    return f"{message.name}_" if message.name in _TAKEN else message.name
+    return f"{message.name}_" if message.name in TAKEN else message.name
 
 
 def _function_names(protocol: Protocol) -> dict[Message, str]:

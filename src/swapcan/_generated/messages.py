@@ -48,6 +48,11 @@ from swapcan.message import (
     ActingCodes,
     CharacterField,
     Checksum,
+    Code1,
+    Code2,
+    Code3,
+    Code4,
+    Code5,
     Counter,
     Field,
     FilledField,
@@ -106,69 +111,69 @@ class V2B_CMD(Message):
     aliv: int | SignalState | None = None
     """Alive counter of the VCU (VCU 生命信号): 0 to 15. V2B_CMD_ALIV, Table 14 row 2 (5.2.1)."""
 
-    hv_on_off: HvCommand | int = HvCommand.SIGNAL_INVALID
+    hv_on_off: HvCommand | Code2 = HvCommand.SIGNAL_INVALID
     """High voltage on or off command (高压上下电指令): 0 to 3. V2B_CMD_HV_OnOff, Table 14 row 3 (5.2.1).
     Makes the receiver act: HV On; safe is HV Off."""
 
-    hv_acc_on_off: AccessoryHvCommand | int = AccessoryHvCommand.SIGNAL_INVALID
+    hv_acc_on_off: AccessoryHvCommand | Code2 = AccessoryHvCommand.SIGNAL_INVALID
     """Accessory high voltage on or off command (附件高压上下电指令): 0 to 3. V2B_CMD_HV_ACC_OnOff, Table 14
     row 4 (5.2.1). Makes the receiver act: HV ACC On; safe is HV ACC Off."""
 
     vehicle_speed: float = 0.0
     """Vehicle speed (车速): 0 to 255 km/h. V2B_CMD_VehicleSpeed, Table 14 row 5 (5.2.1)."""
 
-    heat_on_off: HeatCommand | int = HeatCommand.SIGNAL_INVALID
+    heat_on_off: HeatCommand | Code2 = HeatCommand.SIGNAL_INVALID
     """Heating on or off command (加热开启关闭命令): 0 to 3. V2B_CMD_Heat_OnOff, Table 14 row 6 (5.2.1).
     Makes the receiver act: Heat On; safe is Heat Off."""
 
-    main_pos_relay_st: RelayState | int = RelayState.SIGNAL_INVALID
+    main_pos_relay_st: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Main positive relay (where the vehicle detects it) (主正继电器状态(如继电器状态由整车检测)): 0 to 3.
     V2B_CMD_MainPosRelayST, Table 14 row 7 (5.2.1)."""
 
-    main_neg_relay_st: RelayState | int = RelayState.SIGNAL_INVALID
+    main_neg_relay_st: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Main negative relay (where the vehicle detects it) (主负继电器状态(如继电器状态由整车检测)): 0 to 3.
     V2B_CMD_MainNegRelayST, Table 14 row 8 (5.2.1)."""
 
-    prechg_relay_st: RelayState | int = RelayState.SIGNAL_INVALID
+    prechg_relay_st: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Precharge relay (where the vehicle detects it) (预充继电器状态(如继电器状态由整车检测)): 0 to 3.
     V2B_CMD_PrechgRelayST, Table 14 row 9 (5.2.1)."""
 
-    att_relay_st: RelayState | int = RelayState.SIGNAL_INVALID
+    att_relay_st: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Accessory relay (where the vehicle detects it) (附件继电器状态(如继电器状态由整车检测)): 0 to 3.
     V2B_CMD_AttRelayST, Table 14 row 10 (5.2.1)."""
 
-    main_motor_con_st: RelayState | int = RelayState.SIGNAL_INVALID
+    main_motor_con_st: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Main motor contactor (主电机接触器状态): 0 to 3. V2B_CMD_MainMotorConST, Table 14 row 11 (5.2.1)."""
 
-    main_motor_con_flt: ContactorFault | int = ContactorFault.SIGNAL_INVALID
+    main_motor_con_flt: ContactorFault | Code2 = ContactorFault.SIGNAL_INVALID
     """Main motor contactor fault (主电机接触器故障): 0 to 3. V2B_CMD_MainMotorConFlt, Table 14 row 12
     (5.2.1)."""
 
-    att_con_st1: RelayState | int = RelayState.SIGNAL_INVALID
+    att_con_st1: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Auxiliary 1 contactor (辅件 1 接触器状态): 0 to 3. V2B_CMD_AttConST1, Table 14 row 13 (5.2.1)."""
 
-    att_con_flt1: ContactorFault | int = ContactorFault.SIGNAL_INVALID
+    att_con_flt1: ContactorFault | Code2 = ContactorFault.SIGNAL_INVALID
     """Auxiliary 1 contactor fault (辅件 1 接触器故障): 0 to 3. V2B_CMD_AttConFlt1, Table 14 row 14
     (5.2.1)."""
 
-    att_con_st2: RelayState | int = RelayState.SIGNAL_INVALID
+    att_con_st2: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Auxiliary 2 contactor (辅件 2 接触器状态): 0 to 3. V2B_CMD_AttConST2, Table 14 row 15 (5.2.1)."""
 
-    att_con_flt2: ContactorFault | int = ContactorFault.SIGNAL_INVALID
+    att_con_flt2: ContactorFault | Code2 = ContactorFault.SIGNAL_INVALID
     """Auxiliary 2 contactor fault (辅件 2 接触器故障): 0 to 3. V2B_CMD_AttConFlt2, Table 14 row 16
     (5.2.1)."""
 
-    att_con_st3: RelayState | int = RelayState.SIGNAL_INVALID
+    att_con_st3: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Auxiliary 3 contactor (辅件 3 接触器状态): 0 to 3. V2B_CMD_AttConST3, Table 14 row 17 (5.2.1)."""
 
-    att_con_flt3: ContactorFault | int = ContactorFault.SIGNAL_INVALID
+    att_con_flt3: ContactorFault | Code2 = ContactorFault.SIGNAL_INVALID
     """Auxiliary 3 contactor fault (辅件 3 接触器故障): 0 to 3. V2B_CMD_AttConFlt3, Table 14 row 18
     (5.2.1)."""
 
-    att_con_st4: RelayState | int = RelayState.SIGNAL_INVALID
+    att_con_st4: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Auxiliary 4 contactor (辅件 4 接触器状态): 0 to 3. V2B_CMD_AttConST4, Table 14 row 19 (5.2.1)."""
 
-    att_con_flt4: ContactorFault | int = ContactorFault.SIGNAL_INVALID
+    att_con_flt4: ContactorFault | Code2 = ContactorFault.SIGNAL_INVALID
     """Auxiliary 4 contactor fault (辅件 4 接触器故障): 0 to 3. V2B_CMD_AttConFlt4, Table 14 row 20
     (5.2.1)."""
 
@@ -220,6 +225,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.HV_COMMAND,
+            enum=enums.HvCommand,
             acting=ActingCodes(codes=frozenset({1}), safe=2),
         ),
         LabelledField(
@@ -232,6 +238,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.ACCESSORY_HV_COMMAND,
+            enum=enums.AccessoryHvCommand,
             acting=ActingCodes(codes=frozenset({1}), safe=2),
         ),
         PhysicalField(
@@ -256,6 +263,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.HEAT_COMMAND,
+            enum=enums.HeatCommand,
             acting=ActingCodes(codes=frozenset({1}), safe=2),
         ),
         LabelledField(
@@ -268,6 +276,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="main_neg_relay_st",
@@ -279,6 +288,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="prechg_relay_st",
@@ -290,6 +300,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="att_relay_st",
@@ -301,6 +312,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="main_motor_con_st",
@@ -312,6 +324,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="main_motor_con_flt",
@@ -323,6 +336,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.CONTACTOR_FAULT,
+            enum=enums.ContactorFault,
         ),
         LabelledField(
             name="att_con_st1",
@@ -334,6 +348,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="att_con_flt1",
@@ -345,6 +360,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.CONTACTOR_FAULT,
+            enum=enums.ContactorFault,
         ),
         LabelledField(
             name="att_con_st2",
@@ -356,6 +372,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="att_con_flt2",
@@ -367,6 +384,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.CONTACTOR_FAULT,
+            enum=enums.ContactorFault,
         ),
         LabelledField(
             name="att_con_st3",
@@ -378,6 +396,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="att_con_flt3",
@@ -389,6 +408,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.CONTACTOR_FAULT,
+            enum=enums.ContactorFault,
         ),
         LabelledField(
             name="att_con_st4",
@@ -400,6 +420,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="att_con_flt4",
@@ -411,6 +432,7 @@ class V2B_CMD(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.CONTACTOR_FAULT,
+            enum=enums.ContactorFault,
         ),
     )
 
@@ -424,10 +446,10 @@ class B2V_RQ(Message):
     Identifier 0x1801D0F3, BMU to VCU, sent when a request begins or ends. A.1, Table 3 (5.1.3).
     """
 
-    vin: VinRequest | int = VinRequest.SIGNAL_INVALID
+    vin: VinRequest | Code2 = VinRequest.SIGNAL_INVALID
     """Request for the VIN (是否请求 VIN): 0 to 3. B2V_RQ_VIN, Table 3 row 1 (5.1.3)."""
 
-    hv_off: HvOffRequest | int = HvOffRequest.SIGNAL_INVALID
+    hv_off: HvOffRequest | Code2 = HvOffRequest.SIGNAL_INVALID
     """Request to switch high voltage off (是否请求下高压): 0 to 3. B2V_RQ_HVOff, Table 3 row 2 (5.1.3)."""
 
     NAME: ClassVar[str] = "B2V_RQ"
@@ -447,6 +469,7 @@ class B2V_RQ(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.VIN_REQUEST,
+            enum=enums.VinRequest,
         ),
         LabelledField(
             name="hv_off",
@@ -458,6 +481,7 @@ class B2V_RQ(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.HV_OFF_REQUEST,
+            enum=enums.HvOffRequest,
         ),
     )
 
@@ -605,10 +629,10 @@ class V2B_RQData(Message):
     """Checksum: byte 0 is the XOR of bytes 1 to 7 (Checksum 值, Byte0=Byte1 XOR Byte2 XOR Byte3 XOR
     Byte4 XOR Byte5 XOR Byte6 XOR Byte7): 0 to 255. V2B_RD_Checksum, Table 16 row 1 (5.2.3)."""
 
-    rq_batt_info: BattInfoRequest | int = BattInfoRequest.SIGNAL_INVALID
+    rq_batt_info: BattInfoRequest | Code2 = BattInfoRequest.SIGNAL_INVALID
     """Request for BattInfo (是否请求发送 BattInfo): 0 to 3. V2B_RD_RQBattInfo, Table 16 row 2 (5.2.3)."""
 
-    rq_sys_code: SysCodeRequest | int = SysCodeRequest.SIGNAL_INVALID
+    rq_sys_code: SysCodeRequest | Code2 = SysCodeRequest.SIGNAL_INVALID
     """Request for SysCode (是否请求发送 SysCode): 0 to 3. V2B_RD_RQSysCode, Table 16 row 3 (5.2.3)."""
 
     NAME: ClassVar[str] = "V2B_RQData"
@@ -644,6 +668,7 @@ class V2B_RQData(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.BATT_INFO_REQUEST,
+            enum=enums.BattInfoRequest,
         ),
         LabelledField(
             name="rq_sys_code",
@@ -655,6 +680,7 @@ class V2B_RQData(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.SYS_CODE_REQUEST,
+            enum=enums.SysCodeRequest,
         ),
     )
 
@@ -675,10 +701,10 @@ class B2V_SysCode1(Message):
     """Checksum of pack code frame 1 (电池编码信息 1 的 CheckSum): 0 to 255. B2V_SC1_Checksum, Table 8 row
     1 (5.1.7)."""
 
-    manufacturer: Manufacturer | int = 0
+    manufacturer: Manufacturer | Code3 = 0
     """Battery manufacturer (电池厂家): 0 to 7. B2V_SC1_Manufacturer, Table 8 row 2 (5.1.7)."""
 
-    sys_code_length: PackCodeLength | int = PackCodeLength.DO_NOT_TRANSMIT_THIS_CODE
+    sys_code_length: PackCodeLength | Code5 = PackCodeLength.DO_NOT_TRANSMIT_THIS_CODE
     """Length of the pack code (电池编码长度): 0 to 31. B2V_SC1_SysCodeLength, Table 8 row 3 (5.1.7). If
     not given: Do not transmit this Code."""
 
@@ -738,6 +764,7 @@ class B2V_SysCode1(Message):
             minimum=0,
             maximum=7,
             labels=enums.MANUFACTURER,
+            enum=enums.Manufacturer,
         ),
         LabelledField(
             name="sys_code_length",
@@ -748,6 +775,7 @@ class B2V_SysCode1(Message):
             minimum=0,
             maximum=31,
             labels=enums.PACK_CODE_LENGTH,
+            enum=enums.PackCodeLength,
         ),
         CharacterField(
             name="sys_code_b1",
@@ -1245,10 +1273,10 @@ class B2V_BattInfo1(Message):
     rate_power: float | SignalState = SignalState.INVALID
     """Rated energy (电池包额定总能量): 0 to 6553.5 kWh. B2V_BI1_RatePower, Table 13 row 3 (5.1.12)."""
 
-    batt_type: BatteryType | int = 0
+    batt_type: BatteryType | Code4 = 0
     """Battery type (电池类型): 0 to 15. B2V_BI1_BattType, Table 13 row 4 (5.1.12)."""
 
-    cool_type: CoolingType | int = 0
+    cool_type: CoolingType | Code2 = 0
     """Cooling (电池冷却方式): 0 to 3. B2V_BI1_CoolType, Table 13 row 5 (5.1.12)."""
 
     NAME: ClassVar[str] = "B2V_BattInfo1"
@@ -1306,6 +1334,7 @@ class B2V_BattInfo1(Message):
             minimum=0,
             maximum=15,
             labels=enums.BATTERY_TYPE,
+            enum=enums.BatteryType,
         ),
         LabelledField(
             name="cool_type",
@@ -1316,6 +1345,7 @@ class B2V_BattInfo1(Message):
             minimum=0,
             maximum=3,
             labels=enums.COOLING_TYPE,
+            enum=enums.CoolingType,
         ),
     )
 
@@ -1690,129 +1720,129 @@ class B2V_ST0(Message):
     (可充电装置系统序号(BMS 是整车中可充电装置系统中的第几个,需要整车告知)): 0 to 15. B2V_ST0_RechrgeableDev_No, Table 1 row 17
     (5.1.1)."""
 
-    flt_main_pos_relay_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_main_pos_relay_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Main positive relay welded (主正继电器粘连故障): 0 to 1. B2V_ST0_Flt_MainPosRelayWeld, Table 2 row 9
     (5.1.2), Table 12 row 22 (5.1.11). If not given: Normal."""
 
-    flt_main_neg_relay_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_main_neg_relay_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Main negative relay welded (主负继电器粘连故障): 0 to 1. B2V_ST0_Flt_MainNegRelayWeld, Table 2 row 10
     (5.1.2), Table 12 row 23 (5.1.11). If not given: Normal."""
 
-    flt_chg_pos_relay1_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_pos_relay1_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Charging positive relay 1 welded (充正 1 继电器粘连故障): 0 to 1. B2V_ST0_Flt_ChgPosRelay1Weld, Table
     2 row 11 (5.1.2), Table 12 row 24 (5.1.11). If not given: Normal."""
 
-    flt_chg_neg_relay1_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_neg_relay1_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Charging negative relay 1 welded (充负 1 继电器粘连故障): 0 to 1. B2V_ST0_Flt_ChgNegRelay1Weld, Table
     2 row 12 (5.1.2), Table 12 row 25 (5.1.11). If not given: Normal."""
 
-    flt_chg_pos_relay2_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_pos_relay2_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Charging positive relay 2 welded (充正2继电器粘连故障): 0 to 1. B2V_ST0_Flt_ChgPosRelay2Weld, Table 2
     row 13 (5.1.2), Table 12 row 26 (5.1.11). If not given: Normal."""
 
-    flt_chg_neg_relay2_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_neg_relay2_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Charging negative relay 2 welded (充负 2 继电器粘连故障): 0 to 1. B2V_ST0_Flt_ChgNegRelay2Weld, Table
     2 row 14 (5.1.2), Table 12 row 27 (5.1.11). If not given: Normal."""
 
-    flt_heat_relay1_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_heat_relay1_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Heating relay 1 welded (加热 1 继电器粘连故障): 0 to 1. B2V_ST0_Flt_HeatRelay1Weld, Table 2 row 15
     (5.1.2), Table 12 row 28 (5.1.11). If not given: Normal."""
 
-    flt_heat_relay2_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_heat_relay2_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Heating relay 2 welded (加热 2 继电器粘连故障): 0 to 1. B2V_ST0_Flt_HeatRelay2Weld, Table 2 row 16
     (5.1.2), Table 12 row 29 (5.1.11). If not given: Normal."""
 
-    st_main_pos: RelayState | int = RelayState.SIGNAL_INVALID
+    st_main_pos: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Main positive relay (where the BMS detects it) (主正继电器状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_MainPos, Table 2 row 1 (5.1.2)."""
 
-    st_main_neg: RelayState | int = RelayState.SIGNAL_INVALID
+    st_main_neg: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Main negative relay (where the BMS detects it) (主负继电器状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_MainNeg, Table 2 row 2 (5.1.2)."""
 
-    st_prechg: RelayState | int = RelayState.SIGNAL_INVALID
+    st_prechg: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Precharge relay (where the BMS detects it) (预充继电器状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_Prechg, Table 2 row 3 (5.1.2)."""
 
-    st_chg_pos1: RelayState | int = RelayState.SIGNAL_INVALID
+    st_chg_pos1: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Charging positive relay 1 (where the BMS detects it) (充正继电器 1 状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_ChgPos1, Table 2 row 4 (5.1.2)."""
 
-    st_chg_neg1: RelayState | int = RelayState.SIGNAL_INVALID
+    st_chg_neg1: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Charging negative relay 1 (where the BMS detects it) (充负继电器 1 状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_ChgNeg1, Table 2 row 5 (5.1.2)."""
 
-    st_chg_pos2: RelayState | int = RelayState.SIGNAL_INVALID
+    st_chg_pos2: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Charging positive relay 2 (where the BMS detects it) (充正继电器 2 状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_ChgPos2, Table 2 row 6 (5.1.2)."""
 
-    st_chg_neg2: RelayState | int = RelayState.SIGNAL_INVALID
+    st_chg_neg2: RelayState | Code2 = RelayState.SIGNAL_INVALID
     """Charging negative relay 2 (where the BMS detects it) (充负继电器 2 状态(如继电器状态由 BMS 检测)): 0 to 3.
     B2V_ST0_ST_ChgNeg2, Table 2 row 7 (5.1.2)."""
 
-    flt_acc_relay_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_acc_relay_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Accessory relay welded (附件继电器粘连故障): 0 to 1. B2V_ST0_Flt_ACCRelayWeld, Table 2 row 17
     (5.1.2), Table 12 row 30 (5.1.11). If not given: Normal."""
 
-    flt_branch_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_branch_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """Branch open circuit (支路断路故障): 0 to 1. B2V_ST0_Flt_BranchOpen, Table 12 row 31 (5.1.11). If
     not given: Normal."""
 
-    flt_feedback_chg_oc: FaultLevel | int = FaultLevel.NORMAL
+    flt_feedback_chg_oc: FaultLevel | Code2 = FaultLevel.NORMAL
     """Recuperation current over its limit (回充电流超限故障): 0 to 3. B2V_ST0_Flt_FeedbackChgOC, Table 12
     row 32 (5.1.11). If not given: Normal."""
 
-    flt_main_pos_relay_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_main_pos_relay_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """Main positive relay does not close (主正继电器无法闭合报警): 0 to 1. B2V_ST0_Flt_MainPosRelayOpen,
     Table 2 row 18 (5.1.2), Table 12 row 33 (5.1.11). If not given: Normal."""
 
-    flt_main_neg_relay_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_main_neg_relay_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """Main negative relay does not close (主负继电器无法闭合报警): 0 to 1. B2V_ST0_Flt_MainNegRelayOpen,
     Table 2 row 19 (5.1.2), Table 12 row 34 (5.1.11). If not given: Normal."""
 
-    flt_chg_pos_relay1_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_pos_relay1_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """DC charging 1 positive relay does not close (直流充电 1 正继电器无法闭合报警): 0 to 1.
     B2V_ST0_Flt_ChgPosRelay1Open, Table 2 row 20 (5.1.2), Table 12 row 35 (5.1.11). If not
     given: Normal."""
 
-    flt_chg_pos_relay2_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_pos_relay2_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """DC charging 2 positive relay does not close (直流充电 2 正继电器无法闭合报警): 0 to 1.
     B2V_ST0_Flt_ChgPosRelay2Open, Table 2 row 21 (5.1.2), Table 12 row 36 (5.1.11). If not
     given: Normal."""
 
-    flt_chg_neg_relay1_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_neg_relay1_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """DC charging 1 negative relay does not close (直流充电 1 负继电器无法闭合报警): 0 to 1.
     B2V_ST0_Flt_ChgNegRelay1Open, Table 2 row 22 (5.1.2), Table 12 row 37 (5.1.11). If not
     given: Normal."""
 
-    flt_chg_neg_relay2_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_chg_neg_relay2_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """DC charging 2 negative relay does not close (直流充电 2 负继电器无法闭合报警): 0 to 1.
     B2V_ST0_Flt_ChgNegRelay2Open, Table 2 row 23 (5.1.2), Table 12 row 38 (5.1.11). If not
     given: Normal."""
 
-    flt_heat_or_tms_relay_weld: FaultFlag | int = FaultFlag.NORMAL
+    flt_heat_or_tms_relay_weld: FaultFlag | Code1 = FaultFlag.NORMAL
     """Heating film or TMS contactor does not open (加热膜或 TMS 接触器无法断开报警): 0 to 1.
     B2V_ST0_Flt_HeatOrTMSRelayWeld, Table 2 row 24 (5.1.2), Table 12 row 39 (5.1.11). If not
     given: Normal."""
 
-    flt_heat_or_tms_relay_open: FaultFlag | int = FaultFlag.NORMAL
+    flt_heat_or_tms_relay_open: FaultFlag | Code1 = FaultFlag.NORMAL
     """Heating film or TMS contactor does not close (加热膜或 TMS 接触器无法闭合故障): 0 to 1.
     B2V_ST0_Flt_HeatOrTMSRelayOpen, Table 2 row 25 (5.1.2), Table 12 row 40 (5.1.11). If not
     given: Normal."""
 
-    flt_tms_system: FaultFlag | int = FaultFlag.NORMAL
+    flt_tms_system: FaultFlag | Code1 = FaultFlag.NORMAL
     """Thermal management system fault (热管理系统故障): 0 to 1. B2V_ST0_Flt_TMS_System, Table 12 row 41
     (5.1.11). If not given: Normal."""
 
-    flt_power_supply: FaultFlag | int = FaultFlag.NORMAL
+    flt_power_supply: FaultFlag | Code1 = FaultFlag.NORMAL
     """BMS 24 V supply abnormal (BMS 24V 供电异常报警): 0 to 1. B2V_ST0_Flt_PowerSupply, Table 12 row 42
     (5.1.11). If not given: Normal."""
 
-    flt_pack_self_protect: FaultFlag | int = FaultFlag.NORMAL
+    flt_pack_self_protect: FaultFlag | Code1 = FaultFlag.NORMAL
     """Pack self-protection alarm (电池包自保护报警): 0 to 1. B2V_ST0_Flt_PackSelfProtect, Table 12 row 43
     (5.1.11). If not given: Normal."""
 
-    flt_chg_plug_ot: PlugFaultLevel | int = PlugFaultLevel.NORMAL
+    flt_chg_plug_ot: PlugFaultLevel | Code2 = PlugFaultLevel.NORMAL
     """Charging socket overtemperature (充电插座过温报警): 0 to 3. B2V_ST0_Flt_ChgPlugOT, Table 12 row 44
     (5.1.11). If not given: Normal."""
 
@@ -1848,6 +1878,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_main_neg_relay_weld",
@@ -1858,6 +1889,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_pos_relay1_weld",
@@ -1868,6 +1900,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_neg_relay1_weld",
@@ -1878,6 +1911,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_pos_relay2_weld",
@@ -1888,6 +1922,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_neg_relay2_weld",
@@ -1898,6 +1933,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_heat_relay1_weld",
@@ -1908,6 +1944,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_heat_relay2_weld",
@@ -1918,6 +1955,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="st_main_pos",
@@ -1929,6 +1967,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="st_main_neg",
@@ -1940,6 +1979,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="st_prechg",
@@ -1951,6 +1991,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="st_chg_pos1",
@@ -1962,6 +2003,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="st_chg_neg1",
@@ -1973,6 +2015,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="st_chg_pos2",
@@ -1984,6 +2027,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="st_chg_neg2",
@@ -1995,6 +2039,7 @@ class B2V_ST0(Message):
             maximum=3,
             states={3: SignalState.INVALID},
             labels=enums.RELAY_STATE,
+            enum=enums.RelayState,
         ),
         LabelledField(
             name="flt_acc_relay_weld",
@@ -2005,6 +2050,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_branch_open",
@@ -2015,6 +2061,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_feedback_chg_oc",
@@ -2025,6 +2072,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_main_pos_relay_open",
@@ -2035,6 +2083,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_main_neg_relay_open",
@@ -2045,6 +2094,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_pos_relay1_open",
@@ -2055,6 +2105,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_pos_relay2_open",
@@ -2065,6 +2116,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_neg_relay1_open",
@@ -2075,6 +2127,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_neg_relay2_open",
@@ -2085,6 +2138,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_heat_or_tms_relay_weld",
@@ -2095,6 +2149,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_heat_or_tms_relay_open",
@@ -2105,6 +2160,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_tms_system",
@@ -2115,6 +2171,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_power_supply",
@@ -2125,6 +2182,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_pack_self_protect",
@@ -2135,6 +2193,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_chg_plug_ot",
@@ -2145,6 +2204,7 @@ class B2V_ST0(Message):
             minimum=0,
             maximum=3,
             labels=enums.PLUG_FAULT_LEVEL,
+            enum=enums.PlugFaultLevel,
         ),
         NumberField(
             name="rechrgeable_dev_num",
@@ -2188,113 +2248,113 @@ class B2V_ST1(Message):
     aliv: int | SignalState | None = None
     """Alive counter of B2V_ST1 (B2V_ST1 的生命信号): 0 to 15. B2V_ST1_ALIV, Table 1 row 8 (5.1.1)."""
 
-    bms: BmsState | int = BmsState.HV_OPEN
+    bms: BmsState | Code2 = BmsState.HV_OPEN
     """BMS state (BMS 当前状态): 0 to 3. B2V_ST1_BMS, Table 1 row 9 (5.1.1). If not given: HV open."""
 
-    acc_relay: AccessoryRelayState | int = AccessoryRelayState.OPEN
+    acc_relay: AccessoryRelayState | Code1 = AccessoryRelayState.OPEN
     """Accessory relay (附件继电器状态): 0 to 1. B2V_ST1_ACC_Relay, Table 2 row 8 (5.1.2). If not given:
     Open."""
 
-    balance: BalancingState | int = BalancingState.NO_BALANCING
+    balance: BalancingState | Code1 = BalancingState.NO_BALANCING
     """Balancing state (BMS 当前均衡状态): 0 to 1. B2V_ST1_Balance, Table 1 row 10 (5.1.1). If not given:
     No Balancing."""
 
-    chg_line: ChargeLine | int = ChargeLine.NOT_CONNECTED
+    chg_line: ChargeLine | Code1 = ChargeLine.NOT_CONNECTED
     """Charging gun connection (充电枪连接状态): 0 to 1. B2V_ST1_ChgLine, Table 1 row 11 (5.1.1). If not
     given: Not connected."""
 
-    chg_mode: ChargeMode | int = ChargeMode.RESERVED
+    chg_mode: ChargeMode | Code2 = ChargeMode.RESERVED
     """Charging mode (充电模式): 0 to 3. B2V_ST1_ChgMode, Table 1 row 12 (5.1.1). If not given:
     Reserved."""
 
-    chg_st: ChargeState | int = ChargeState.READY_TO_BE_CHARGING
+    chg_st: ChargeState | Code2 = ChargeState.READY_TO_BE_CHARGING
     """Charging state (充电状态): 0 to 3. B2V_ST1_ChgSt, Table 1 row 13 (5.1.1). If not given: Ready to
     be charging."""
 
-    fault_levl: FaultLevel | int = FaultLevel.NORMAL
+    fault_levl: FaultLevel | Code2 = FaultLevel.NORMAL
     """Highest alarm level (最高报警等级): 0 to 3. B2V_ST1_Fault_Levl, Table 1 row 15 (5.1.1). If not
     given: Normal."""
 
-    flt_del_temp: FaultLevel | int = FaultLevel.NORMAL
+    flt_del_temp: FaultLevel | Code2 = FaultLevel.NORMAL
     """Cell temperature difference abnormal (电芯温差异常报警): 0 to 3. B2V_ST1_Flt_DelTemp, Table 12 row 1
     (5.1.11). If not given: Normal."""
 
-    flt_over_temp: FaultLevel | int = FaultLevel.NORMAL
+    flt_over_temp: FaultLevel | Code2 = FaultLevel.NORMAL
     """Cell temperature too high (电芯温度过高报警): 0 to 3. B2V_ST1_Flt_OverTemp, Table 12 row 2 (5.1.11).
     If not given: Normal."""
 
-    flt_over_h_volt: FaultLevel | int = FaultLevel.NORMAL
+    flt_over_h_volt: FaultLevel | Code2 = FaultLevel.NORMAL
     """Pack overvoltage (PACK 过压报警): 0 to 3. B2V_ST1_Flt_OverHVolt, Table 12 row 3 (5.1.11). If not
     given: Normal."""
 
-    flt_low_h_volt: FaultLevel | int = FaultLevel.NORMAL
+    flt_low_h_volt: FaultLevel | Code2 = FaultLevel.NORMAL
     """Pack undervoltage (PACK 欠压报警): 0 to 3. B2V_ST1_Flt_LowHVolt, Table 12 row 4 (5.1.11). If not
     given: Normal."""
 
-    flt_low_soc: FaultLevel | int = FaultLevel.NORMAL
+    flt_low_soc: FaultLevel | Code2 = FaultLevel.NORMAL
     """SOC too low (SOC 过低报警): 0 to 3. B2V_ST1_Flt_LowSOC, Table 12 row 5 (5.1.11). If not given:
     Normal."""
 
-    flt_over_ucell: FaultLevel | int = FaultLevel.NORMAL
+    flt_over_ucell: FaultLevel | Code2 = FaultLevel.NORMAL
     """Cell voltage too high (单体电压过高报警): 0 to 3. B2V_ST1_Flt_OverUcell, Table 12 row 6 (5.1.11). If
     not given: Normal."""
 
-    flt_low_ucell: FaultLevel | int = FaultLevel.NORMAL
+    flt_low_ucell: FaultLevel | Code2 = FaultLevel.NORMAL
     """Cell voltage too low (单体电压欠压报警): 0 to 3. B2V_ST1_Flt_LowUcell, Table 12 row 7 (5.1.11). If
     not given: Normal."""
 
-    flt_low_ins_res: FaultLevel | int = FaultLevel.NORMAL
+    flt_low_ins_res: FaultLevel | Code2 = FaultLevel.NORMAL
     """Insulation alarm (绝缘报警): 0 to 3. B2V_ST1_Flt_LowInsRes, Table 12 row 8 (5.1.11). If not
     given: Normal."""
 
-    flt_ucell_uniformity: FaultLevel | int = FaultLevel.NORMAL
+    flt_ucell_uniformity: FaultLevel | Code2 = FaultLevel.NORMAL
     """Cell voltage difference too large (单体压差过大): 0 to 3. B2V_ST1_Flt_UcellUniformity, Table 12
     row 9 (5.1.11). If not given: Normal."""
 
-    flt_over_chg: FaultLevel | int = FaultLevel.NORMAL
+    flt_over_chg: FaultLevel | Code2 = FaultLevel.NORMAL
     """Charging current too high (充电电流过大报警): 0 to 3. B2V_ST1_Flt_OverChg, Table 12 row 10 (5.1.11).
     If not given: Normal."""
 
-    flt_over_dis_chg: FaultLevel | int = FaultLevel.NORMAL
+    flt_over_dis_chg: FaultLevel | Code2 = FaultLevel.NORMAL
     """Discharge current too high (放电电流过大报警): 0 to 3. B2V_ST1_Flt_OverDisChg, Table 12 row 11
     (5.1.11). If not given: Normal."""
 
-    flt_low_temp: FaultLevel | int = FaultLevel.NORMAL
+    flt_low_temp: FaultLevel | Code2 = FaultLevel.NORMAL
     """Cell temperature too low (电芯温度过低报警): 0 to 3. B2V_ST1_Flt_LowTemp, Table 12 row 12 (5.1.11).
     If not given: Normal."""
 
-    flt_del_para_u: FaultLevel | int = FaultLevel.NORMAL
+    flt_del_para_u: FaultLevel | Code2 = FaultLevel.NORMAL
     """Branch voltage difference too large (systems with parallel branches) (支路压差过大报警(存在并联支路的系统)):
     0 to 3. B2V_ST1_Flt_DelParaU, Table 12 row 13 (5.1.11). If not given: Normal."""
 
-    flt_hw: FaultLevel | int = FaultLevel.NORMAL
+    flt_hw: FaultLevel | Code2 = FaultLevel.NORMAL
     """BMS hardware fault (BMS 硬件故障): 0 to 3. B2V_ST1_Flt_HW, Table 12 row 14 (5.1.11). If not
     given: Normal."""
 
-    flt_over_soc: FaultFlag | int = FaultFlag.NORMAL
+    flt_over_soc: FaultFlag | Code1 = FaultFlag.NORMAL
     """SOC too high (SOC 过高报警): 0 to 1. B2V_ST1_Flt_OverSOC, Table 12 row 15 (5.1.11). If not
     given: Normal."""
 
-    flt_soc_jump: FaultFlag | int = FaultFlag.NORMAL
+    flt_soc_jump: FaultFlag | Code1 = FaultFlag.NORMAL
     """SOC jump (SOC 跳变报警): 0 to 1. B2V_ST1_Flt_SOCJump, Table 12 row 16 (5.1.11). If not given:
     Normal."""
 
-    flt_local_comm: FaultFlag | int = FaultFlag.NORMAL
+    flt_local_comm: FaultFlag | Code1 = FaultFlag.NORMAL
     """BMS internal communication fault (BMS 内部通讯故障): 0 to 1. B2V_ST1_Flt_LocalComm, Table 12 row
     17 (5.1.11). If not given: Normal."""
 
-    flt_sys_not_matched: FaultFlag | int = FaultFlag.NORMAL
+    flt_sys_not_matched: FaultFlag | Code1 = FaultFlag.NORMAL
     """BMS system not matched (BMS 系统不匹配报警): 0 to 1. B2V_ST1_Flt_SysNotMatched, Table 12 row 18
     (5.1.11). If not given: Normal."""
 
-    flt_hvil: FaultFlag | int = FaultFlag.NORMAL
+    flt_hvil: FaultFlag | Code1 = FaultFlag.NORMAL
     """High voltage interlock alarm (高压互锁报警): 0 to 1. B2V_ST1_Flt_HVIL, Table 12 row 19 (5.1.11).
     If not given: Normal."""
 
-    flt_fog: FaultFlag | int = FaultFlag.NORMAL
+    flt_fog: FaultFlag | Code1 = FaultFlag.NORMAL
     """Smoke alarm (烟雾报警): 0 to 1. B2V_ST1_Flt_Fog, Table 12 row 20 (5.1.11). If not given: Normal."""
 
-    flt_fire: FaultFlag | int = FaultFlag.NORMAL
+    flt_fire: FaultFlag | Code1 = FaultFlag.NORMAL
     """Fire alarm (火灾报警): 0 to 1. B2V_ST1_Flt_Fire, Table 12 row 21 (5.1.11). If not given: Normal."""
 
     gbt32960_flt_num: int = 0
@@ -2348,6 +2408,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.BMS_STATE,
+            enum=enums.BmsState,
         ),
         LabelledField(
             name="acc_relay",
@@ -2358,6 +2419,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.ACCESSORY_RELAY_STATE,
+            enum=enums.AccessoryRelayState,
         ),
         LabelledField(
             name="balance",
@@ -2368,6 +2430,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.BALANCING_STATE,
+            enum=enums.BalancingState,
         ),
         LabelledField(
             name="chg_line",
@@ -2378,6 +2441,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGE_LINE,
+            enum=enums.ChargeLine,
         ),
         LabelledField(
             name="chg_mode",
@@ -2388,6 +2452,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.CHARGE_MODE,
+            enum=enums.ChargeMode,
         ),
         LabelledField(
             name="chg_st",
@@ -2398,6 +2463,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.CHARGE_STATE,
+            enum=enums.ChargeState,
         ),
         LabelledField(
             name="fault_levl",
@@ -2408,6 +2474,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_del_temp",
@@ -2418,6 +2485,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_over_temp",
@@ -2428,6 +2496,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_over_h_volt",
@@ -2438,6 +2507,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_low_h_volt",
@@ -2448,6 +2518,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_low_soc",
@@ -2458,6 +2529,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_over_ucell",
@@ -2468,6 +2540,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_low_ucell",
@@ -2478,6 +2551,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_low_ins_res",
@@ -2488,6 +2562,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_ucell_uniformity",
@@ -2498,6 +2573,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_over_chg",
@@ -2508,6 +2584,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_over_dis_chg",
@@ -2518,6 +2595,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_low_temp",
@@ -2528,6 +2606,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_del_para_u",
@@ -2538,6 +2617,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_hw",
@@ -2548,6 +2628,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=3,
             labels=enums.FAULT_LEVEL,
+            enum=enums.FaultLevel,
         ),
         LabelledField(
             name="flt_over_soc",
@@ -2558,6 +2639,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_soc_jump",
@@ -2568,6 +2650,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_local_comm",
@@ -2578,6 +2661,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_sys_not_matched",
@@ -2588,6 +2672,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_hvil",
@@ -2598,6 +2683,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_fog",
@@ -2608,6 +2694,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         LabelledField(
             name="flt_fire",
@@ -2618,6 +2705,7 @@ class B2V_ST1(Message):
             minimum=0,
             maximum=1,
             labels=enums.FAULT_FLAG,
+            enum=enums.FaultFlag,
         ),
         NumberField(
             name="gbt32960_flt_num",
@@ -3170,7 +3258,7 @@ class B2C_Charger(Message):
     """AC charging current set point (交流充电电流设置): 0 to 6553.5 A. B2C_S_CurrentSet, Table 18 row 2
     (5.3)."""
 
-    charge_control: ChargeControl | int
+    charge_control: ChargeControl | Code2
     """AC charger control (交流充电机控制): 0 to 3. B2V_S_ChargeControl, Table 18 row 3 (5.3). Makes the
     receiver act: Start to charge; safe is Normal Stop to charge. It has to be given: no value
     would be one of these."""
@@ -3215,6 +3303,7 @@ class B2C_Charger(Message):
             minimum=0,
             maximum=3,
             labels=enums.CHARGE_CONTROL,
+            enum=enums.ChargeControl,
             acting=ActingCodes(codes=frozenset({0}), safe=1),
         ),
     )
@@ -3240,32 +3329,32 @@ class C2B_ACStatus(Message):
     """AC charger output current (交流充电机电流输出): 0 to 6553.5 A. C2B_N_CurrentOutput, Table 19 row 2
     (5.4)."""
 
-    charger_hardware: ChargerFault | int = ChargerFault.OK
+    charger_hardware: ChargerFault | Code1 = ChargerFault.OK
     """AC charger hardware fault (the BMU ends charging and restarts once the fault is gone)
     (交流充电机硬件故障(BMU 终止充电流程,待故障消失后重启充电流程)): 0 to 1. C2B_F_ChargerHardware, Table 19 row 3 (5.4).
     If not given: OK."""
 
-    charger_over_temp: ChargerFault | int = ChargerFault.OK
+    charger_over_temp: ChargerFault | Code1 = ChargerFault.OK
     """AC charger too hot (the BMS limits the charging power) (交流充电机温度过高警告(BMS 限制充电功率)): 0 to 1.
     C2B_F_ChargerOverTemp, Table 19 row 4 (5.4). If not given: OK."""
 
-    charger_input_voltage: ChargerFault | int = ChargerFault.OK
+    charger_input_voltage: ChargerFault | Code1 = ChargerFault.OK
     """AC charger input voltage abnormal (the BMU ends charging and restarts once the fault is
     gone) (交流充电机输入电压异常(BMU 终止充电流程,待故障消失后重启充电流程)): 0 to 1. C2B_F_ChargerInputVoltage, Table 19
     row 5 (5.4). If not given: OK."""
 
-    charger_ready: ChargerTimeout | int = ChargerTimeout.NORMAL
+    charger_ready: ChargerTimeout | Code1 = ChargerTimeout.NORMAL
     """AC charger initialisation (result of the self-test after power-on)
     (交流充电机初始化状态(充电机上电后自检,自检完成后将自检状态发给 BMS)): 0 to 1. C2B_St_ChargerReady, Table 19 row 6 (5.4).
     If not given: Normal."""
 
-    charger_start: ChargerOperation | int
+    charger_start: ChargerOperation | Code1
     """AC charger operation (answer to the start command of the BMS) (交流充电机工作状态(当车载充电机接收到 BMS
     发送的启动命令后,反馈自己运行的状态信息)): 0 to 1. C2B_St_ChargerStart, Table 19 row 7 (5.4). Says that
     something is on: On; safe is Off(in order to prevent Battery reverse connection). It has to
     be given: no value would be one of these."""
 
-    charger_can: ChargerTimeout | int = ChargerTimeout.NORMAL
+    charger_can: ChargerTimeout | Code1 = ChargerTimeout.NORMAL
     """Charger communication fault (the BMS ends charging and restarts once the fault is gone)
     (充电机通讯故障(BMS 终止充电流程,待故障消失后重启充电过程)): 0 to 1. C2B_F_Charger_CAN, Table 19 row 8 (5.4). If not
     given: Normal."""
@@ -3310,6 +3399,7 @@ class C2B_ACStatus(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGER_FAULT,
+            enum=enums.ChargerFault,
         ),
         LabelledField(
             name="charger_over_temp",
@@ -3320,6 +3410,7 @@ class C2B_ACStatus(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGER_FAULT,
+            enum=enums.ChargerFault,
         ),
         LabelledField(
             name="charger_input_voltage",
@@ -3330,6 +3421,7 @@ class C2B_ACStatus(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGER_FAULT,
+            enum=enums.ChargerFault,
         ),
         LabelledField(
             name="charger_ready",
@@ -3340,6 +3432,7 @@ class C2B_ACStatus(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGER_TIMEOUT,
+            enum=enums.ChargerTimeout,
         ),
         LabelledField(
             name="charger_start",
@@ -3350,6 +3443,7 @@ class C2B_ACStatus(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGER_OPERATION,
+            enum=enums.ChargerOperation,
             acting=ActingCodes(codes=frozenset({0}), safe=1, reports=True),
         ),
         LabelledField(
@@ -3361,6 +3455,7 @@ class C2B_ACStatus(Message):
             minimum=0,
             maximum=1,
             labels=enums.CHARGER_TIMEOUT,
+            enum=enums.ChargerTimeout,
         ),
     )
 
@@ -3377,20 +3472,20 @@ class BMS_TMS_0(Message):
     reqst_tms_hv_on.
     """
 
-    hv_rly_sts: HvRelayState | int = HvRelayState.OPEN
+    hv_rly_sts: HvRelayState | Code2 = HvRelayState.OPEN
     """High voltage relay of the BMS (BMS 高压继电器状态): 0 to 3. BMS_HVRlySts, Table 19 row 4 (5.5). If
     not given: Open."""
 
-    chrg_sts: ChargeState | int = ChargeState.READY_TO_BE_CHARGING
+    chrg_sts: ChargeState | Code2 = ChargeState.READY_TO_BE_CHARGING
     """Charging state (充电状态): 0 to 3. BMS_ChrgSts, Table 19 row 3 (5.5). If not given: Ready to be
     charging."""
 
-    reqst_tms_hv_on: HvRequest | int
+    reqst_tms_hv_on: HvRequest | Code2
     """High voltage request (高压请求): 0 to 3. BMS_ReqstTMSHVon, Table 19 row 2 (5.5). Makes the
     receiver act: Request HV on; safe is Request HV off. It has to be given: no value would be
     one of these."""
 
-    reqst_set_tms_sts: ThermalMode | int = ThermalMode.OFF
+    reqst_set_tms_sts: ThermalMode | Code2 = ThermalMode.OFF
     """Mode requested by the BMS (BMS 请求设定模式): 0 to 3. BMS_ReqstSetTMSts, Table 19 row 1 (5.5).
     Makes the receiver act: Cooling, Heating, Self-circulation; safe is Off. If not given: Off."""
 
@@ -3435,6 +3530,7 @@ class BMS_TMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.HV_RELAY_STATE,
+            enum=enums.HvRelayState,
         ),
         LabelledField(
             name="chrg_sts",
@@ -3445,6 +3541,7 @@ class BMS_TMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.CHARGE_STATE,
+            enum=enums.ChargeState,
         ),
         LabelledField(
             name="reqst_tms_hv_on",
@@ -3455,6 +3552,7 @@ class BMS_TMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.HV_REQUEST,
+            enum=enums.HvRequest,
             acting=ActingCodes(codes=frozenset({0}), safe=1),
         ),
         LabelledField(
@@ -3466,6 +3564,7 @@ class BMS_TMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.THERMAL_MODE,
+            enum=enums.ThermalMode,
             acting=ActingCodes(codes=frozenset({1, 2, 3}), safe=0),
         ),
         PhysicalField(
@@ -3524,11 +3623,11 @@ class TMS_BMS_0(Message):
     Fields that are not given say: Open, Off, Inactive.
     """
 
-    hv_rly_sts: HvRelayState | int = HvRelayState.OPEN
+    hv_rly_sts: HvRelayState | Code2 = HvRelayState.OPEN
     """High voltage relay of the cooling unit (TMS 高压继电器状态): 0 to 3. TMS_HVRlySts, Table 20 row 2
     (5.6). If not given: Open."""
 
-    work_sts: ThermalMode | int = ThermalMode.OFF
+    work_sts: ThermalMode | Code2 = ThermalMode.OFF
     """Mode of the cooling unit (TMS 工作状态): 0 to 3. TMS_WorkSts, Table 20 row 1 (5.6). If not
     given: Off."""
 
@@ -3542,7 +3641,7 @@ class TMS_BMS_0(Message):
     """Power demanded by the cooling unit (TMS 需求功率): 0 to 65535. TMS_ReqstCap, Table 20 row 5
     (5.6)."""
 
-    fault_lv: WarningLevel | int = WarningLevel.INACTIVE
+    fault_lv: WarningLevel | Code2 = WarningLevel.INACTIVE
     """Fault level of the cooling unit (TMS 故障等级): 0 to 3. TMS_FaultLv, Table 20 row 7 (5.6). If
     not given: Inactive."""
 
@@ -3565,6 +3664,7 @@ class TMS_BMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.HV_RELAY_STATE,
+            enum=enums.HvRelayState,
         ),
         LabelledField(
             name="work_sts",
@@ -3575,6 +3675,7 @@ class TMS_BMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.THERMAL_MODE,
+            enum=enums.ThermalMode,
         ),
         PhysicalField(
             name="output_water_temp",
@@ -3618,6 +3719,7 @@ class TMS_BMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.WARNING_LEVEL,
+            enum=enums.WarningLevel,
         ),
         NumberField(
             name="fault_code",
@@ -3646,18 +3748,18 @@ class BSU_BMS_0(Message):
     """Alive counter of the swap controller (换电控制器 LIVE): 0 to 255. BSU_Live, Table 17 row 1
     (5.2.4)."""
 
-    lock: LockState | int = LockState.NEITHER_UNLOCKED_NOR_LOCKED
+    lock: LockState | Code2 = LockState.NEITHER_UNLOCKED_NOR_LOCKED
     """Lock feedback (锁止反馈状态): 0 to 3. BSU_Lock, Table 17 row 2 (5.2.4). If not given: Neither
     unlocked nor locked."""
 
-    connect_st: ConnectorState | int = 0
+    connect_st: ConnectorState | Code2 = 0
     """Swap connector state (换电连接器状态): 0 to 3. BSU_ConnectSt, Table 17 row 3 (5.2.4)."""
 
     connector_temp: float = -40.0
     """Temperature of the swap connector interface (换电连接器对接口温度): -40 to 210 degC.
     BSU_ConnectorTemp, Table 17 row 4 (5.2.4)."""
 
-    conctor_temp_warn: WarningLevel | int = WarningLevel.INACTIVE
+    conctor_temp_warn: WarningLevel | Code2 = WarningLevel.INACTIVE
     """Overtemperature of the swap connector interface (换电连接器对接口过温报警): 0 to 3. BSU_ConctorTempWarn,
     Table 17 row 5 (5.2.4). If not given: Inactive."""
 
@@ -3691,6 +3793,7 @@ class BSU_BMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.LOCK_STATE,
+            enum=enums.LockState,
         ),
         LabelledField(
             name="connect_st",
@@ -3701,6 +3804,7 @@ class BSU_BMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.CONNECTOR_STATE,
+            enum=enums.ConnectorState,
         ),
         PhysicalField(
             name="connector_temp",
@@ -3723,6 +3827,7 @@ class BSU_BMS_0(Message):
             minimum=0,
             maximum=3,
             labels=enums.WARNING_LEVEL,
+            enum=enums.WarningLevel,
         ),
     )
 

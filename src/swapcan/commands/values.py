@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import re
-import typing
 from collections.abc import Sequence
-from enum import IntEnum
 
 from swapcan.console import CommandError
 from swapcan.message import (
@@ -20,6 +19,7 @@ from swapcan.message import (
     Value,
 )
 from swapcan.messages import MESSAGES
+from swapcan.plain import shown
 
 _STATES = {"invalid": SignalState.INVALID, "abnormal": SignalState.ABNORMAL}
 
@@ -30,26 +30,40 @@ def message_named(name: str) -> type[Message]:
     if kind := by_name.get(name.casefold()):
         return kind
     raise CommandError(
-        _unknown(f"there is no message {name!r}", name, [kind.NAME for kind in MESSAGES])
+        _unknown(f"there is no message {shown(name)}", name, [kind.NAME for kind in MESSAGES])
     )
 
 
 def message_of(kind: type[Message], assignments: Sequence[str]) -> Message:
     """The message with fields such as ``soc=80`` set.
 
-    Raises `CommandError` for what cannot be read as a value, and `EncodeError` for a code that
-    the field has not; other values are checked when the message is encoded.
+    Raises `CommandError` for what cannot be read as a value and for a field that has to be given
+    and is not; whether a value can be sent is checked when the message is encoded.
     """
     values: dict[str, Value] = {}
     for assignment in assignments:
         name, equals, text = assignment.partition("=")
         if not equals:
-            raise CommandError(f"expected FIELD=VALUE, not {assignment!r}")
+            raise CommandError(f"expected FIELD=VALUE, not {shown(assignment)}")
         field = _field_named(kind, name.strip())
         if field.name in values:
             raise CommandError(f"{kind.NAME}.{field.name} is given twice")
         values[field.name] = _value(kind, field, text.strip())
+    for name, parameter in inspect.signature(kind).parameters.items():
+        if parameter.default is parameter.empty and name not in values:
+            raise CommandError(_has_to_be_given(kind, kind.FIELDS[name]))
     return kind(**values)
+
+
+def _has_to_be_given(kind: type[Message], field: Field) -> str:
+    """Why a field has no default: what stands for no value, invalid or 0, would act."""
+    invalid = (raw for raw, state in field.states.items() if state is SignalState.INVALID)
+    label = field.text(next(invalid, 0))
+    known = ", ".join(field.labels.values())
+    return (
+        f"{kind.NAME}.{field.name} has to be given: left out it would be sent as {label};"
+        f" it knows {known}"
+    )
 
 
 def _field_named(kind: type[Message], name: str) -> Field:
@@ -59,7 +73,7 @@ def _field_named(kind: type[Message], name: str) -> Field:
                 raise CommandError(f"{kind.NAME}.{field.name} is filled in when sending")
             return field
     known = [field.name for field in kind.FIELDS.values() if not isinstance(field, FilledField)]
-    raise CommandError(_unknown(f"{kind.NAME} has no field {name!r}", name, known))
+    raise CommandError(_unknown(f"{kind.NAME} has no field {shown(name)}", name, known))
 
 
 def _value(kind: type[Message], field: Field, text: str) -> Value:
@@ -74,7 +88,8 @@ def _value(kind: type[Message], field: Field, text: str) -> Value:
     except ValueError:
         what = "a number" if isinstance(field, PhysicalField) else "a whole number"
         what = "a character" if isinstance(field, CharacterField) else what
-        raise CommandError(f"{kind.NAME}.{field.name}: expected {what}, not {text!r}") from None
+        problem = f"expected {what}, not {shown(text)}"
+        raise CommandError(f"{kind.NAME}.{field.name}: {problem}") from None
 
 
 def _whole(text: str) -> int:
@@ -87,22 +102,22 @@ def _code(kind: type[Message], field: LabelledField, text: str) -> int:
     try:
         return _whole(text)
     except ValueError:
-        codes = _codes(kind, field)
+        codes = _codes(field)
     found = codes.get(_key(text), set())
     if len(found) == 1:
         return found.pop()
     if found:
         numbers = ", ".join(map(str, sorted(found)))
-        raise CommandError(f"{kind.NAME}.{field.name}: {text!r} is each of the codes {numbers}")
-    known = ", ".join(dict.fromkeys(field.labels.values()))
-    raise CommandError(f"{kind.NAME}.{field.name}: unknown label {text!r}; known are {known}")
+        problem = f"{shown(text)} is each of the codes {numbers}"
+    else:
+        known = ", ".join(dict.fromkeys(field.labels.values()))
+        problem = f"unknown label {shown(text)}; known are {known}"
+    raise CommandError(f"{kind.NAME}.{field.name}: {problem}")
 
 
-def _codes(kind: type[Message], field: LabelledField) -> dict[str, set[int]]:
+def _codes(field: LabelledField) -> dict[str, set[int]]:
     pairs = [(label, code) for code, label in field.labels.items()]
-    for part in typing.get_args(typing.get_type_hints(kind)[field.name]):
-        if isinstance(part, type) and issubclass(part, IntEnum):
-            pairs += [(member.name, member.value) for member in part]
+    pairs += [(member.name, member.value) for member in field.enum]
     for text, state in _STATES.items():
         pairs += [(text, code) for code, meaning in field.states.items() if meaning is state]
     codes: dict[str, set[int]] = {}

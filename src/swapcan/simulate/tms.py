@@ -10,7 +10,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.bus import Received
 from swapcan.clock import Clock, SystemClock
-from swapcan.message import SignalState
+from swapcan.message import Code2, SignalState
 from swapcan.messages import (
     BMS_TMS_0,
     TMS_BMS_0,
@@ -63,7 +63,7 @@ class Tms(Participant):
         self.node.supply(TMS_BMS_0, self._report)
 
     @property
-    def mode(self) -> ThermalMode | int:
+    def mode(self) -> ThermalMode | Code2:
         """What it does."""
         if self._alone or self.has("tms_fault"):
             return ThermalMode.OFF
