@@ -12,8 +12,8 @@ import pytest
 from hypothesis import settings
 
 from dbcspec.config import find_config
-from dbcspec.model import Protocol
 from dbcspec.project import Project, load
+from typedcan.model.protocol import Protocol
 
 # Many tests run commands as processes of their own: let those keep their bytecode.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

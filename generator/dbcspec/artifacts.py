@@ -16,9 +16,9 @@ from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
 from dbcspec.emit.json_schema import emit_json_schemas
 from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.stubs import emit_stubs
-from dbcspec.errors import ReadError
-from dbcspec.model import Protocol
 from dbcspec.rows import DOCUMENTS
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Protocol
 
 _DIFF_LINES = 8
 _DIGEST = re.compile(rb"\b[0-9a-f]{16}\b")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from dbcspec.errors import Fault
-from dbcspec.model import Message
 from dbcspec.rows import Spec
+from typedcan.model.protocol import Message
 
 
 def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:

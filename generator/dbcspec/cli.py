@@ -10,7 +10,8 @@ from collections.abc import Callable, Sequence
 from importlib.metadata import version
 
 from dbcspec.commands import compare, generate, lint, load, matrix, show
-from dbcspec.errors import FindingsError, ReadError, SpecError, StaleArtifactError
+from dbcspec.errors import FindingsError, SpecError, StaleArtifactError
+from typedcan.model.errors import ReadError
 
 _EXAMPLES = """examples:
   dbcspec generate                       write the DBC files, stubs and schemas of the spec

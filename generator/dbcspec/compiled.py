@@ -7,10 +7,10 @@ from pathlib import Path
 
 from dbcspec.errata import apply_errata
 from dbcspec.errors import Fault, SpecError
-from dbcspec.model import Protocol
 from dbcspec.resolve import resolve
 from dbcspec.rows import Spec
 from dbcspec.spec_folder import read_spec
+from typedcan.model.protocol import Protocol
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,10 +13,10 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from dbcspec.errors import Location, ReadError
 from dbcspec.lint.options import Options, is_rule, is_rule_or_group
 from dbcspec.lint.registry import ALL_RULES
 from dbcspec.lint.rule import Settings, Waiver
+from typedcan.model.errors import Location, ReadError
 
 _TEXT_KEYS = {"name", "spec", "dbc", "stubs", "runtime"}
 _LINT_TABLES = {"lint", "waivers"}

@@ -5,17 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-
-@dataclass(frozen=True, slots=True, order=True)
-class Location:
-    """A place in a text file; line and column count from 1."""
-
-    path: str
-    line: int = 1
-    column: int = 1
-
-    def __str__(self) -> str:
-        return f"{self.path}:{self.line}:{self.column}"
+from typedcan.model.errors import Location, TypedcanError
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -29,8 +19,8 @@ class Fault:
         return f"{self.where}: {self.text}"
 
 
-class DbcspecError(Exception):
-    """Base of all errors that this package raises on purpose."""
+class DbcspecError(TypedcanError):
+    """Base of the errors of the toolchain alone."""
 
 
 class SpecError(DbcspecError):
@@ -61,7 +51,3 @@ class StaleArtifactError(DbcspecError):
     def __init__(self, reports: Iterable[str]) -> None:
         self.reports = tuple(reports)
         super().__init__("\n".join(self.reports))
-
-
-class ReadError(DbcspecError):
-    """A file or a configuration cannot be used: one line that says which and why."""

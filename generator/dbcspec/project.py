@@ -9,8 +9,8 @@ from dbcspec.config import Config
 from dbcspec.errors import Fault
 from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
-from dbcspec.model import Protocol
 from dbcspec.rows import Spec
+from typedcan.model.protocol import Protocol
 
 
 @dataclass(frozen=True, slots=True)

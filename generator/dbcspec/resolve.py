@@ -6,16 +6,16 @@ from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import TypeVar
 
-from dbcspec import model
-from dbcspec.acting import usual_start
 from dbcspec.behaviour_names import unknown_names
 from dbcspec.errors import Fault, SpecError
-from dbcspec.layout import float_limits, whole_byte
-from dbcspec.naming import field_name, shared_prefix
 from dbcspec.resolve_acts import acting_codes
 from dbcspec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
 from dbcspec.schema import Record
 from dbcspec.value_tables import ValueTables
+from typedcan.model import protocol as model
+from typedcan.model.acting import usual_start
+from typedcan.model.layout import float_limits, whole_byte
+from typedcan.model.naming import field_name, shared_prefix
 
 T = TypeVar("T")
 

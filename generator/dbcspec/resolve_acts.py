@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.acting import ActingCodes
 from dbcspec.behaviour_rows import ActsRow
 from dbcspec.errors import Fault
 from dbcspec.rows import Spec
+from typedcan.model.acting import ActingCodes
 
 
 def acting_codes(spec: Spec, faults: list[Fault]) -> dict[str, ActingCodes]:

@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any, ClassVar, Self, TypeVar, cast
 
-from dbcspec.errors import Fault, Location, SpecError
+from dbcspec.errors import Fault, SpecError
 from dbcspec.source import Items, Node, Scalar, Table
+from typedcan.model.errors import Location
 
 _METADATA = "dbcspec"
 

@@ -7,10 +7,10 @@ import string
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from dbcspec.errors import ReadError
-from dbcspec.layout import bits
-from dbcspec.model import Message, Protocol, Signal, ValueTable
-from dbcspec.numbers import number
+from typedcan.model.errors import ReadError
+from typedcan.model.layout import bits
+from typedcan.model.numbers import number
+from typedcan.model.protocol import Message, Protocol, Signal, ValueTable
 
 _LETTERS = string.ascii_lowercase + string.ascii_uppercase
 _WIDTH = 100

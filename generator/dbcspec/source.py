@@ -13,7 +13,8 @@ from typing import Any
 
 import yaml
 
-from dbcspec.errors import Fault, Location, SpecError
+from dbcspec.errors import Fault, SpecError
+from typedcan.model.errors import Location
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DEEPEST = 40

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 from dbcspec.compare.pairing import MessagePair, SignalPair, pair
-from dbcspec.model import Aspect, Protocol, Signal
+from typedcan.model.protocol import Aspect, Protocol, Signal
 
 ACTS = "codes that act"
 """The difference in which codes of a signal act, and all that is said of them."""

@@ -6,10 +6,11 @@ import dataclasses
 from pathlib import Path
 
 from dbcspec.behaviour_rows import Behaviour
-from dbcspec.errors import Fault, Location, SpecError
+from dbcspec.errors import Fault, SpecError
 from dbcspec.rows import Errata, Messages, SameCodes, SignalRow, SignalTable, Spec, Standard
 from dbcspec.schema import RecordT
 from dbcspec.source import read_yaml
+from typedcan.model.errors import Location
 
 
 def read_spec(folder: Path, shown_as: str) -> Spec:

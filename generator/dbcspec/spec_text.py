@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
-from dbcspec.acting import ActingCodes
-from dbcspec.model import Message, SendType, Signal
 from dbcspec.rows import ErratumRow
 from dbcspec.source import Table
 from dbcspec.splice import flow, scalar
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Message, SendType, Signal
 
 SEND_TYPES = {
     SendType.CYCLIC: "Cyclic",

@@ -6,9 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from dbcspec.acting import ActingCodes
 from dbcspec.compare.pairing import MessagePair, SignalPair, pair
-from dbcspec.model import Message, Protocol, Signal
 from dbcspec.rows import MessageRow, SignalRow, SignalTable, Spec
 from dbcspec.schema import Record, keys_of
 from dbcspec.spec_differences import ACTS, Difference, differences
@@ -23,6 +21,8 @@ from dbcspec.spec_text import (
     signal_row,
 )
 from dbcspec.splice import YamlText, scalar
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Message, Protocol, Signal
 
 _MESSAGES, _BEHAVIOUR = "messages.yaml", "behaviour.yaml"
 _TITLES = "the captions of its tables make it"

@@ -9,8 +9,17 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 
-from dbcspec.model import Aspect, Message, Node, Protocol, Request, Signal, Transfer, ValueTable
-from dbcspec.numbers import number
+from typedcan.model.numbers import number
+from typedcan.model.protocol import (
+    Aspect,
+    Message,
+    Node,
+    Protocol,
+    Request,
+    Signal,
+    Transfer,
+    ValueTable,
+)
 
 _Fact = tuple[str, object]
 """What is said, and the value: text is quoted, None and "" are left out."""

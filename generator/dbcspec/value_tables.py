@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dbcspec.errors import Fault
-from dbcspec.model import Code, ValueTable
 from dbcspec.rows import SignalRow, Spec
+from typedcan.model.protocol import Code, ValueTable
 
 _Codes = tuple[tuple[int, str], ...]
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
-from dbcspec.model import Protocol
 from dbcspec.resolve import resolve
 from dbcspec.spec_differences import differences
 from dbcspec.spec_folder import read_spec
 from dbcspec.spec_writer import SpecWriter
+from typedcan.model.protocol import Protocol
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,8 +27,8 @@ import cantools
 
 from dbcspec.compare.run import compare
 from dbcspec.emit.dbc import emit_dbc
-from dbcspec.model import Bus, Code, Message, Node, Protocol, SendType, Signal, ValueTable
-from dbcspec.read.dbc import read_dbc
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.protocol import Bus, Code, Message, Node, Protocol, SendType, Signal, ValueTable
 
 _ROUNDS = 3
 _BITS = 4

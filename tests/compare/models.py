@@ -10,8 +10,8 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from dbcspec.acting import ActingCodes
-from dbcspec.model import (
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import (
     Bus,
     ByteOrder,
     Checksum,

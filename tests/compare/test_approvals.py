@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from dbcspec.compare.approvals import APPROVAL_USED, Approval, apply_approvals, read_approvals
-from dbcspec.errors import Location, ReadError
 from dbcspec.report.item import Item
+from typedcan.model.errors import Location, ReadError
 
 FACTOR = Item(
     rule="signal-scale-same",

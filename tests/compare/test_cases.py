@@ -18,10 +18,10 @@ from dbcspec.compare.promise import Promise
 from dbcspec.compare.registry import PROMISES
 from dbcspec.compare.run import RULES, compare
 from dbcspec.config import Config
-from dbcspec.model import Protocol
 from dbcspec.project import load
-from dbcspec.read.dbc import read_dbc
 from dbcspec.report.item import LEVELS, Item
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.protocol import Protocol
 
 CASES = Path(__file__).with_name("cases")
 

@@ -18,8 +18,8 @@ from compare.edits import EDITS, Edit
 
 from dbcspec.compare.registry import PROMISES
 from dbcspec.compare.run import compare
-from dbcspec.model import Protocol
-from dbcspec.read.dbc import read_dbc
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.protocol import Protocol
 
 NOT_IN_A_DBC = frozenset(
     {

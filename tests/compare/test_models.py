@@ -11,12 +11,12 @@ from compare.models import NOT_COMPARED, mutations, protocols
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dbcspec import model
-from dbcspec.acting import ActingCodes
 from dbcspec.compare.registry import PROMISES
 from dbcspec.compare.run import compare, worst
-from dbcspec.model import Aspect, Protocol
 from dbcspec.report.item import LEVELS
+from typedcan.model import protocol as model
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Aspect, Protocol
 
 PLACES_OF = {
     Aspect.PERIODS: ("Message.period", "Message.send_type"),

@@ -11,8 +11,8 @@ import pytest
 from cantools.database.can import Database
 
 from dbcspec.compare.run import compare
-from dbcspec.model import Bus, Protocol
-from dbcspec.read.dbc import read_dbc
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.protocol import Bus, Protocol
 
 FILES = ("caamtb-swap.dbc", "caamtb-swap.zh.dbc", "caamtb-swap.zh-utf8.dbc")
 ENCODINGS = {"caamtb-swap.zh.dbc": "gbk"}

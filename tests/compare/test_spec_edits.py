@@ -10,9 +10,9 @@ import pytest
 
 from dbcspec.compare.run import compare
 from dbcspec.config import Config
-from dbcspec.model import Protocol
 from dbcspec.project import load
 from dbcspec.report.item import Item
+from typedcan.model.protocol import Protocol
 
 BASE = Path(__file__).with_name("cases") / "bus-present" / "previous"
 ACTS = "acts:\n  - {signal: LAMP, codes: [15], safe: 0, cite: here}\nrequests:"

@@ -6,8 +6,8 @@ from decimal import Decimal
 
 from emit.other_protocol import signal
 
-from dbcspec.acting import ActingCodes
-from dbcspec.model import Code, Message, Node, Protocol, ValueTable
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Code, Message, Node, Protocol, ValueTable
 
 
 def table(name: str, *labels: str, first: int = 0) -> ValueTable:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import Any
 
-from dbcspec.model import (
+from typedcan.model.naming import snake_case
+from typedcan.model.protocol import (
     Bus,
     ByteOrder,
     Code,
@@ -16,7 +17,6 @@ from dbcspec.model import (
     Signal,
     ValueTable,
 )
-from dbcspec.naming import snake_case
 
 GEARS = ValueTable("Gears", (Code(0, "Leerlauf", "Neutral"), Code(7, "Rückwärts", "Reverse")))
 TEXTS = ValueTable("Texts", (Code(1, "Eins", "One"), Code(60000, "Viele", "Very many")))

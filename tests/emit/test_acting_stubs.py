@@ -16,12 +16,12 @@ import pytest
 from emit.acting_protocol import ACTS, MOVING, REPORTS
 from emit.other_protocol import signal
 
-from dbcspec.acting import ActingCodes
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import dbc_faults, foreign_artifacts
-from dbcspec.errors import ReadError
-from dbcspec.model import Message, Protocol, Signal
 from swapcan.message import Message as TypedMessage
+from typedcan.model.acting import ActingCodes
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Message, Protocol, Signal
 
 
 @pytest.fixture(scope="module")

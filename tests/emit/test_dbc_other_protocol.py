@@ -12,9 +12,9 @@ from emit.dbc_lines import Dbc
 from emit.other_protocol import HELLO, LONG_NAMES, OTHER, WHEELS
 
 from dbcspec.emit.dbc import emit_dbc
-from dbcspec.errors import Location
-from dbcspec.model import Bus, Protocol
-from dbcspec.numbers import number
+from typedcan.model.errors import Location
+from typedcan.model.numbers import number
+from typedcan.model.protocol import Bus, Protocol
 
 
 def rendered(protocol: Protocol = OTHER, bus: Bus | None = None) -> Dbc:

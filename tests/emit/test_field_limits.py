@@ -13,9 +13,9 @@ import pytest
 from cantools.database.can import Database
 
 from dbcspec.emit.foreign import foreign_artifacts
-from dbcspec.read.dbc import read_dbc
 from swapcan import EncodeError
 from swapcan.packing import Packer
+from typedcan.databases.dbc import read_dbc
 
 WIDE = """VERSION ""
 

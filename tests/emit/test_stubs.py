@@ -21,12 +21,12 @@ from emit.other_protocol import OTHER, PLAIN
 
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.stubs import emit_stubs
-from dbcspec.model import Protocol, ValueTable
 from swapcan import SignalState
 from swapcan import messages as m
 from swapcan.message import Code2, Code5
 from swapcan.messages import MESSAGES
 from swapcan.packing import Packer
+from typedcan.model.protocol import Protocol, ValueTable
 
 PACKAGES = {"othercar": OTHER, "plaincar": PLAIN}
 

@@ -21,10 +21,10 @@ from fields.any_values import Near, any_value, tried
 from fields.meant import real_number
 
 from dbcspec.emit.foreign import foreign_artifacts
-from dbcspec.read.dbc import read_dbc
 from swapcan import EncodeError
 from swapcan.message import FloatField
 from swapcan.packing import Packer
+from typedcan.databases.dbc import read_dbc
 
 LARGEST = {32: Fraction(2**128 - 2**104), 64: Fraction(2**1024 - 2**971)}
 """Of the floats of so many bits."""

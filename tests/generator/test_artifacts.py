@@ -10,8 +10,8 @@ from generator.small_spec import write_project
 
 from dbcspec.artifacts import Stale, artifacts, verify, write
 from dbcspec.config import find_config
-from dbcspec.errors import ReadError
 from dbcspec.project import Project, load
+from typedcan.model.errors import ReadError
 
 DBC_FILES = ("thermo.dbc", "thermo.zh.dbc", "thermo.zh-utf8.dbc", "thermo-house.dbc")
 

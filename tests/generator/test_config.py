@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from dbcspec.config import Config, find_config
-from dbcspec.errors import ReadError
+from typedcan.model.errors import ReadError
 
 
 def configured(folder: Path, toml: str) -> Config:

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracles import reference_codec as reference
 
-from dbcspec.layout import bits, whole_byte
-from dbcspec.model import ByteOrder, Protocol, Signal
+from typedcan.model.layout import bits, whole_byte
+from typedcan.model.protocol import ByteOrder, Protocol, Signal
 
 INTEL, MOTOROLA = ByteOrder.INTEL, ByteOrder.MOTOROLA
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dbcspec.naming import field_name, member_names, name_fault, shared_prefix, snake_case
+from typedcan.model.naming import field_name, member_names, name_fault, shared_prefix, snake_case
 
 IDENTIFIERS = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,40}", fullmatch=True)
 

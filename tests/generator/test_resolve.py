@@ -11,7 +11,9 @@ from generator.small_spec import edited, write_spec
 
 from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
-from dbcspec.model import (
+from dbcspec.resolve import resolve
+from dbcspec.spec_folder import read_spec
+from typedcan.model.protocol import (
     ByteOrder,
     Checksum,
     Code,
@@ -21,8 +23,6 @@ from dbcspec.model import (
     SendType,
     Signal,
 )
-from dbcspec.resolve import resolve
-from dbcspec.spec_folder import read_spec
 
 
 def resolved(folder: Path, **changed: str) -> Protocol:

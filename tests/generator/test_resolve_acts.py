@@ -8,12 +8,12 @@ import pytest
 from generator.command import dbcspec
 from generator.small_spec import FILES, edited, write_project, write_spec
 
-from dbcspec.acting import ActingCodes
 from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
-from dbcspec.model import Protocol, Signal
 from dbcspec.resolve import resolve
 from dbcspec.spec_folder import read_spec
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Protocol, Signal
 
 
 def acts(*rows: str) -> str:

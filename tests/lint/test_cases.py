@@ -18,7 +18,7 @@ from dbcspec.lint.registry import ALL_RULES, RULES
 from dbcspec.lint.rule import Rule, Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.project import load
-from dbcspec.read.dbc import read_dbc
+from typedcan.databases.dbc import read_dbc
 
 CASES = Path(__file__).with_name("cases")
 

@@ -12,8 +12,8 @@ from dbcspec.lint.options import ALL, Options
 from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.project import Project
-from dbcspec.read.dbc import read_dbc
-from dbcspec.read.encoding import find_encoding
+from typedcan.databases.dbc import read_dbc
+from typedcan.databases.encoding import find_encoding
 
 FIXTURES = sorted((Path(__file__).parent.parent / "fixtures" / "dbc").glob("*.dbc"))
 WAIVED = {"code-labelled", "pgn-unique", "broadcast-receivers"}

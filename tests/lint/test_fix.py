@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dbcspec.fix import fix_bytes, fix_dbc
-from dbcspec.read.dbc import read_dbc
-from dbcspec.read.encoding import find_encoding
+from typedcan.databases.dbc import read_dbc
+from typedcan.databases.encoding import find_encoding
 
 FIXTURES = sorted((Path(__file__).parent.parent / "fixtures" / "dbc").glob("*.dbc"))
 

@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 
-from dbcspec.acting import ActingCodes
-from dbcspec.errors import Location
 from dbcspec.lint.items import rule_infos, to_items
 from dbcspec.lint.pgn_unique import RULE as PGN_UNIQUE
 from dbcspec.lint.registry import ALL_RULES
 from dbcspec.lint.rule import Finding, Settings, Subject
 from dbcspec.lint.run import lint
 from dbcspec.lint.units import is_known
-from dbcspec.model import Aspect, Bus, Code, Message, Node, Protocol, Signal, ValueTable
+from typedcan.model.acting import ActingCodes
+from typedcan.model.errors import Location
+from typedcan.model.protocol import Aspect, Bus, Code, Message, Node, Protocol, Signal, ValueTable
 
 
 def signal(name: str = "SPEED", **values: Any) -> Signal:

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from dbcspec.config import find_config, read_lint_config
-from dbcspec.errors import Location, ReadError
 from dbcspec.lint.options import Options
 from dbcspec.lint.registry import ALL_RULES
 from dbcspec.lint.rule import Finding, Settings, Subject, Waiver
 from dbcspec.lint.run import lint_with
-from dbcspec.model import Message, Protocol
+from typedcan.model.errors import Location, ReadError
+from typedcan.model.protocol import Message, Protocol
 
 HERE = Location("pyproject.toml", 3)
 

@@ -8,8 +8,8 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dbcspec.load.frame_time import frame_bits
 from dbcspec.load.response import Stream, Time, worst_case_responses
+from typedcan.model.frame_time import frame_bits
 
 MS = Fraction(1, 1000)
 BIT = Fraction(1, 125_000)

@@ -12,8 +12,8 @@ from dbcspec.cli import run
 from dbcspec.config import find_config
 from dbcspec.load.analysis import analyse
 from dbcspec.load.traffic import Scenario, Size, frames_of
-from dbcspec.model import Protocol
 from dbcspec.project import load
+from typedcan.model.protocol import Protocol
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,8 +8,8 @@ import pytest
 from matrix.small_spec import FILES
 
 from dbcspec.emit.matrix import emit_matrix
-from dbcspec.model import Protocol
 from dbcspec.read.matrix import read_matrix
+from typedcan.model.protocol import Protocol
 
 
 @pytest.fixture(scope="session")

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from dbcspec.errata import apply_errata
-from dbcspec.model import Code, Protocol, ValueTable
 from dbcspec.resolve import resolve
 from dbcspec.spec_folder import read_spec
 from dbcspec.write_spec import Proposal
+from typedcan.model.protocol import Code, Protocol, ValueTable
 
 STANDARD = """\
 number: T 1

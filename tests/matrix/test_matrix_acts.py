@@ -15,13 +15,13 @@ from matrix.small_spec import applied, changed, lines, model
 from matrix.workbooks import MATRIX, columns, edited, signal_rows, small
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.acting import ActingCodes
 from dbcspec.compare.run import compare
 from dbcspec.emit.matrix import emit_matrix
 from dbcspec.errors import SpecError
-from dbcspec.model import Aspect, Protocol, Signal
 from dbcspec.read.matrix import read_matrix
 from dbcspec.write_spec import propose_spec
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Aspect, Protocol, Signal
 
 ACTING = "Acting Values (Hex)", "Safe Value (Hex)", "Acts As", "Acting Reference"
 BEHAVIOUR = """\

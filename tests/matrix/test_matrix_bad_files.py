@@ -13,8 +13,8 @@ from emit.other_protocol import OTHER
 from matrix.workbooks import HEADINGS, SPEED, repacked, save, small
 
 from dbcspec.emit.matrix import emit_matrix
-from dbcspec.errors import ReadError
 from dbcspec.read.matrix import read_matrix
+from typedcan.model.errors import ReadError
 
 _OLE = bytes.fromhex("d0cf11e0a1b11ae1")
 _SHEET = "xl/worksheets/sheet1.xml"

@@ -20,7 +20,7 @@ import pytest
 from emit.other_protocol import OTHER, signal
 
 from dbcspec.emit.matrix import emit_matrix
-from dbcspec.model import Message, Protocol
+from typedcan.model.protocol import Message, Protocol
 
 _RISKY = ("=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "=cmd|' /C calc'!A0", "#N/A")
 

@@ -18,8 +18,8 @@ from matrix.workbooks import (
 from openpyxl.worksheet.worksheet import Worksheet
 
 from dbcspec.emit.matrix import emit_matrix
-from dbcspec.model import Aspect, Protocol, SendType
 from dbcspec.read.matrix import read_matrix
+from typedcan.model.protocol import Aspect, Protocol, SendType
 
 
 @pytest.fixture(scope="module")

@@ -15,9 +15,9 @@ from matrix.workbooks import MATRIX
 
 from dbcspec.compare.run import compare
 from dbcspec.emit.matrix import emit_matrix
-from dbcspec.model import Aspect, Code, Message, Protocol, Signal, ValueTable
-from dbcspec.read.dbc import read_dbc
 from dbcspec.read.matrix import read_matrix
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.protocol import Aspect, Code, Message, Protocol, Signal, ValueTable
 
 _DBCS = sorted((Path(__file__).parent.parent / "fixtures" / "dbc").glob("*.dbc"))
 _FACTS = (

@@ -16,8 +16,8 @@ from matrix.workbooks import (
     small,
 )
 
-from dbcspec.model import ByteOrder, SendType, Signal
 from dbcspec.read.matrix import read_matrix
+from typedcan.model.protocol import ByteOrder, SendType, Signal
 
 
 def only_signal(path: Path) -> Signal:

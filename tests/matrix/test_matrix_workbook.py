@@ -11,7 +11,7 @@ from matrix.workbooks import MATRIX, columns, signal_rows
 from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.model import Protocol
+from typedcan.model.protocol import Protocol
 
 _BRIEF = {
     "报文名称": "Msg Name",

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from matrix.small_spec import applied, changed, codes, lines, model
 
-from dbcspec.model import Protocol
 from dbcspec.write_spec import Proposal, propose_spec
+from typedcan.model.protocol import Protocol
 
 
 def test_without_a_change_nothing_is_proposed(spec: Path) -> None:

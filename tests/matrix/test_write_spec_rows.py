@@ -12,9 +12,9 @@ from matrix.small_spec import FILES, TABLE, applied, changed, codes, lines, mode
 from matrix.workbooks import columns, edited, signal_rows
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.model import Message, Protocol, SendType, Signal
 from dbcspec.read.matrix import read_matrix
 from dbcspec.write_spec import propose_spec
+from typedcan.model.protocol import Message, Protocol, SendType, Signal
 
 
 def test_nothing_is_deleted(spec: Path) -> None:

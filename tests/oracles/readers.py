@@ -15,7 +15,7 @@ from cantools.database.can import Message as CantoolsMessage
 from cantools.database.can import Node as CantoolsNode
 from cantools.database.can import Signal as CantoolsSignal
 
-from dbcspec.model import Bus, ByteOrder, Message, Protocol, SendType, Signal
+from typedcan.model.protocol import Bus, ByteOrder, Message, Protocol, SendType, Signal
 
 _SEND_TYPES = {
     SendType.CYCLIC: "Cyclic",

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from fractions import Fraction
 
-from dbcspec.model import ByteOrder, Message, Signal
+from typedcan.model.protocol import ByteOrder, Message, Signal
 
 Place = tuple[int, int]
 """A byte of the payload, and a bit of it from 0 (value 1) to 7 (value 128)."""

@@ -16,10 +16,10 @@ from hypothesis import strategies as st
 from oracles import reference_codec as reference
 
 import swapcan
-from dbcspec.model import Message, Protocol, Signal
 from swapcan import EncodeError, SignalState, message_type
 from swapcan.message import PhysicalField
 from swapcan.messages import MESSAGES
+from typedcan.model.protocol import Message, Protocol, Signal
 
 NAMES = [message.NAME for message in MESSAGES]
 PAYLOADS = st.binary(min_size=8, max_size=8)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from oracles.readers import Facts, by_canmatrix, by_cantools, of_model
 
-from dbcspec.model import Protocol
+from typedcan.model.protocol import Protocol
 
 ENCODINGS = {
     "caamtb-swap": "ascii",

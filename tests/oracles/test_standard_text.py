@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from dbcspec.model import Protocol
 from dbcspec.project import Project
 from dbcspec.rows import Spec
 from dbcspec.spec_folder import read_spec
+from typedcan.model.protocol import Protocol
 
 LOST_IN_PRINT = {
     "B2V_ST0_Flt_FeedbackChgOC",  # its last letter became a formula

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from read.views import SignalView, by_canmatrix, by_cantools, of_model
 
-from dbcspec.errors import ReadError
-from dbcspec.layout import bits
-from dbcspec.model import Aspect, Message, Protocol, SendType, Signal
-from dbcspec.read.database import Labels
-from dbcspec.read.dbc import read_any, read_dbc
+from typedcan.databases.database import Labels
+from typedcan.databases.dbc import read_any, read_dbc
+from typedcan.model.errors import ReadError
+from typedcan.model.layout import bits
+from typedcan.model.protocol import Aspect, Message, Protocol, SendType, Signal
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 FILES = sorted((FIXTURES / "dbc").glob("*.dbc"))

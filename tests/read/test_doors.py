@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from dbcspec.errors import ReadError, SpecError
-from dbcspec.model import Protocol
+from dbcspec.errors import SpecError
 from dbcspec.read.doors import open_side
 from dbcspec.read.git import split_revision
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Protocol
 
 DBC = """VERSION ""
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from dbcspec.errors import ReadError
-from dbcspec.read.encoding import decode, find_encoding, read_text
+from typedcan.databases.encoding import decode, find_encoding, read_text
+from typedcan.model.errors import ReadError
 
 CHINESE = "电池管理系统的最高温度, BMS 状态: 闭合"
 GERMAN = "Temperatur des Kühlmittels in °C, Drehzahl und Größe für Fußgänger"

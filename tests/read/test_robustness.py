@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dbcspec.errors import ReadError
-from dbcspec.model import Protocol
-from dbcspec.read.dbc import read_any, read_dbc
-from dbcspec.read.encoding import decode, find_encoding
+from typedcan.databases.dbc import read_any, read_dbc
+from typedcan.databases.encoding import decode, find_encoding
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Protocol
 
 SMALL = """VERSION ""
 

@@ -15,9 +15,9 @@ from read.views import by_canmatrix, of_model
 
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.spec import emit_spec
-from dbcspec.model import Protocol
-from dbcspec.read.dbc import read_dbc
 from dbcspec.read.doors import open_side
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.protocol import Protocol
 
 FILES = sorted((Path(__file__).parent.parent / "fixtures" / "dbc").glob("*.dbc"))
 LONG_NAMES = {"long_names"}

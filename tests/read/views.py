@@ -12,7 +12,7 @@ import cantools.database
 from cantools.database.can import Database
 from cantools.database.can import Signal as CantoolsSignal
 
-from dbcspec.model import ByteOrder, Message, Protocol, Signal
+from typedcan.model.protocol import ByteOrder, Message, Protocol, Signal
 
 
 @dataclass(frozen=True)

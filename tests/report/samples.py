@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dbcspec.errors import Location
 from dbcspec.report.item import Item, Report, RuleInfo
+from typedcan.model.errors import Location
 
 HOSTILE = (
     "plain",

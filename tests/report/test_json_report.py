@@ -12,9 +12,9 @@ import jsonschema
 import pytest
 from report.samples import EMPTY, HOSTILE, LINT, PLAIN, RULES, hostile, item
 
-from dbcspec.errors import Location
 from dbcspec.report.formats import render
 from dbcspec.report.item import Report
+from typedcan.model.errors import Location
 
 every_report = pytest.mark.parametrize(
     "report", [PLAIN, EMPTY, LINT, hostile()], ids=("plain", "empty", "lint", "hostile")

@@ -12,10 +12,10 @@ from pathlib import Path
 
 from emit.other_protocol import OTHER
 
-from dbcspec.acting import ActingCodes
-from dbcspec.model import Aspect, Code, Message, Node, Protocol, Signal, ValueTable
-from dbcspec.read.dbc import read_dbc
 from dbcspec.textconv import textconv
+from typedcan.databases.dbc import read_dbc
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Aspect, Code, Message, Node, Protocol, Signal, ValueTable
 
 GEARS = ValueTable("Gears", (Code(1, "eins", "one"), Code(0, "null", "null")))
 SPEED = Signal(
@@ -138,7 +138,7 @@ def test_git_shows_the_meaning_of_a_changed_dbc_file(tmp_path: Path) -> None:
     after = f"{head}{second}{gear} SG_ Speed{speed}".replace("(0.5,0)", "(0.25,0)")
     driver = tmp_path / "driver.py"
     driver.write_text(
-        "import sys\nfrom pathlib import Path\nfrom dbcspec.read.dbc import read_dbc\n"
+        "import sys\nfrom pathlib import Path\nfrom typedcan.databases.dbc import read_dbc\n"
         "from dbcspec.textconv import textconv\n"
         "sys.stdout.buffer.write(textconv(read_dbc(Path(sys.argv[1]))).encode())\n"
     )

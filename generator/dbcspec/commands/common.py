@@ -11,11 +11,11 @@ from pathlib import Path
 from dbcspec.artifacts import put_in_place
 from dbcspec.config import find_config
 from dbcspec.errors import FindingsError
-from dbcspec.model import Protocol
 from dbcspec.project import Project, load
 from dbcspec.read.doors import open_side
 from dbcspec.report.formats import FORMATS, render
 from dbcspec.report.item import Report
+from typedcan.model.protocol import Protocol
 
 
 class Commands(typing.Protocol):

@@ -9,9 +9,10 @@ from pathlib import Path
 
 from dbcspec.artifacts import artifacts, foreign_artifacts, verify, write
 from dbcspec.commands.common import Commands, load_sound_project, project_option
-from dbcspec.errors import ReadError, StaleArtifactError
-from dbcspec.model import Protocol
+from dbcspec.errors import StaleArtifactError
 from dbcspec.read.doors import open_side
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Protocol
 
 
 def add(commands: Commands) -> None:

@@ -16,16 +16,16 @@ from dbcspec.commands.common import (
 )
 from dbcspec.compare.run import RULES as PROMISES
 from dbcspec.config import read_lint_config, selected
-from dbcspec.errors import ReadError
 from dbcspec.fix import fix_bytes, raw_text
 from dbcspec.lint.items import rule_infos, to_items
 from dbcspec.lint.options import Options
 from dbcspec.lint.rule import Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.read.doors import open_side
-from dbcspec.read.encoding import read_encoded
 from dbcspec.report.item import Report
 from dbcspec.report.rules import print_rules
+from typedcan.databases.encoding import read_encoded
+from typedcan.model.errors import ReadError
 
 
 def add(commands: Commands) -> None:

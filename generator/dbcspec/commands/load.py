@@ -10,12 +10,12 @@ from pathlib import Path
 
 from dbcspec.artifacts import put_in_place
 from dbcspec.commands.common import Commands, project_option, source_protocol
-from dbcspec.errors import ReadError
 from dbcspec.load.analysis import BusLoad, analyse
 from dbcspec.load.plot import svg
 from dbcspec.load.tables import data, text
 from dbcspec.load.traffic import Scenario, Size
-from dbcspec.model import Bus, Protocol
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Bus, Protocol
 
 _EXAMPLES = """examples:
   dbcspec load --groups 18 --items cell_voltages=216 --items probe_temperatures=108

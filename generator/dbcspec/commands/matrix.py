@@ -18,11 +18,11 @@ from dbcspec.commands.common import (
 from dbcspec.compare.run import RULES, compare
 from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.spec import emit_spec
-from dbcspec.errors import ReadError
 from dbcspec.read.doors import open_side
 from dbcspec.read.matrix import read_matrix
 from dbcspec.report.item import Report
 from dbcspec.write_spec import propose_spec
+from typedcan.model.errors import ReadError
 
 
 def add(commands: Commands) -> None:

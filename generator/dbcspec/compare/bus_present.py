@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, gone
 from dbcspec.compare.spec_only import both_are_specs
-from dbcspec.model import NOWHERE
+from typedcan.model.protocol import NOWHERE
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

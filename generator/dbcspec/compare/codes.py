@@ -9,8 +9,8 @@ from enum import Enum
 from dbcspec.compare.pairing import Pairing, SignalPair
 from dbcspec.compare.promise import Change, Check
 from dbcspec.compare.spec_only import both_are_specs, states
-from dbcspec.model import Code, ValueTable
-from dbcspec.naming import member_names
+from typedcan.model.naming import member_names
+from typedcan.model.protocol import Code, ValueTable
 
 _SHOWN = 4
 """Codes that a text names before it counts the rest; ``old`` and ``new`` have all."""

@@ -18,7 +18,7 @@ from dbcspec.compare.promise import (
 )
 from dbcspec.compare.spec_only import both_are_specs
 from dbcspec.compare.transfers import transfer_pairs
-from dbcspec.model import Aspect, Bus, Message, Node, Protocol, Signal
+from typedcan.model.protocol import Aspect, Bus, Message, Node, Protocol, Signal
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, protocol_change
 from dbcspec.compare.spec_only import both_are_specs
-from dbcspec.model import Aspect, Erratum
+from typedcan.model.protocol import Aspect, Erratum
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

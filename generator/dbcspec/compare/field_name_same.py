@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, signal_change
-from dbcspec.model import Aspect
+from typedcan.model.protocol import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable, Iterator
 
-from dbcspec.model import Code, Protocol
+from typedcan.model.protocol import Code, Protocol
 
 Text = tuple[str, str]
 """A text as printed and in English; both the same where a source has one only."""

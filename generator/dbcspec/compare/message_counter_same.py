@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, message_change
 from dbcspec.compare.protection import protection_follows
-from dbcspec.model import Aspect, Counter
+from typedcan.model.protocol import Aspect, Counter
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

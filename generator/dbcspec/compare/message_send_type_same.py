@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dbcspec.compare.promise import Breaks, Class, Promise, in_messages
-from dbcspec.model import Aspect
+from typedcan.model.protocol import Aspect
 
 PROMISE = Promise(
     "message-send-type-same",

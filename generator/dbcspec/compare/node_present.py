@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, gone
-from dbcspec.model import NOWHERE
+from typedcan.model.protocol import NOWHERE
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dbcspec.compare.pairing import MessagePair
-from dbcspec.layout import bits
-from dbcspec.model import Signal
+from typedcan.model.layout import bits
+from typedcan.model.protocol import Signal
 
 
 def taken_by(signal: Signal, message: MessagePair) -> Signal | None:

@@ -15,8 +15,8 @@ from operator import attrgetter
 from typing import TypeVar
 
 from dbcspec.compare.languages import Languages
-from dbcspec.layout import bits
-from dbcspec.model import Bus, Message, Node, Protocol, Signal, ValueTable
+from typedcan.model.layout import bits
+from typedcan.model.protocol import Bus, Message, Node, Protocol, Signal, ValueTable
 
 T = TypeVar("T")
 

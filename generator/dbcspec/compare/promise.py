@@ -8,8 +8,8 @@ from enum import IntEnum, StrEnum
 from typing import TypeVar
 
 from dbcspec.compare.pairing import MessagePair, Pairing, SignalPair
-from dbcspec.errors import Location
-from dbcspec.model import NOWHERE, Aspect, ByteOrder, Message, Signal
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Aspect, ByteOrder, Message, Signal
 
 T = TypeVar("T")
 

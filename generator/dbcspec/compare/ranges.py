@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from decimal import Decimal
 
 from dbcspec.compare.pairing import Pairing, SignalPair
-from dbcspec.model import Signal
-from dbcspec.numbers import number
+from typedcan.model.numbers import number
+from typedcan.model.protocol import Signal
 
 
 def changed_ranges(pairing: Pairing) -> Iterator[SignalPair]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.acting import ActingCodes
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import (
     Breaks,
@@ -17,7 +16,8 @@ from dbcspec.compare.promise import (
     signal_change,
 )
 from dbcspec.compare.spec_only import both_are_specs, both_say_what_acts
-from dbcspec.model import Aspect, Message, Protocol, Signal
+from typedcan.model.acting import ActingCodes
+from typedcan.model.protocol import Aspect, Message, Protocol, Signal
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

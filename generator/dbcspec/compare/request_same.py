@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, listed, protocol_change
-from dbcspec.model import Aspect, Request
+from typedcan.model.protocol import Aspect, Request
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

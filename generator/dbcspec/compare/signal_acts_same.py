@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, from_to, in_signals, listed
-from dbcspec.model import Aspect, Signal
+from typedcan.model.protocol import Aspect, Signal
 
 _WORD = "codes that act"
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, signal_change
-from dbcspec.layout import bits
-from dbcspec.model import Signal
+from typedcan.model.layout import bits
+from typedcan.model.protocol import Signal
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, listed, signal_change
-from dbcspec.model import Signal
+from typedcan.model.protocol import Signal
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

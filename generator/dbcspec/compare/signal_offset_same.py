@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dbcspec.compare.promise import Breaks, Class, Promise, in_signals
-from dbcspec.numbers import number
+from typedcan.model.numbers import number
 
 PROMISE = Promise(
     "signal-offset-same",

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, signal_change
 from dbcspec.compare.spec_only import start_follows
-from dbcspec.model import Aspect
+from typedcan.model.protocol import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dbcspec.acting import usual_start
 from dbcspec.compare.pairing import Pairing, SignalPair
-from dbcspec.model import Aspect, Signal
+from typedcan.model.acting import usual_start
+from typedcan.model.protocol import Aspect, Signal
 
 SPEC_ONLY = Aspect.PROTECTION
 """A DBC has labels only; which of them mean invalid is said where checksums are said."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, protocol_change
 from dbcspec.compare.transfers import transfer_pairs
-from dbcspec.model import Aspect
+from typedcan.model.protocol import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from dbcspec.compare.pairing import Pairing
-from dbcspec.model import Transfer
+from typedcan.model.protocol import Transfer
 
 
 def transfer_pairs(pairing: Pairing) -> Iterator[tuple[Transfer | None, Transfer | None]]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing, SignalPair
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, signal_change
 from dbcspec.compare.spec_only import both_are_specs
-from dbcspec.model import ValueTable
+from typedcan.model.protocol import ValueTable
 
 _COUNTED = re.compile(r"_\d+$")
 

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from dbcspec.emit.long_names import LongName, shortened
 from dbcspec.emit.multiplexing import marker, selector_lists
 from dbcspec.emit.templating import template
-from dbcspec.layout import float_limits
-from dbcspec.model import (
+from typedcan.model.layout import float_limits
+from typedcan.model.numbers import number
+from typedcan.model.protocol import (
     Aspect,
     Bus,
     ByteOrder,
@@ -21,7 +22,6 @@ from dbcspec.model import (
     Signal,
     ValueTable,
 )
-from dbcspec.numbers import number
 
 NOBODY = "Vector__XXX"
 _EXTENDED = 0x8000_0000

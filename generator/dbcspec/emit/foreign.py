@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator
 
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.stubs import TAKEN, class_name, emit_stubs
-from dbcspec.errors import ReadError
-from dbcspec.model import Message, Protocol, Signal, ValueTable
-from dbcspec.naming import snake_case
+from typedcan.model.errors import ReadError
+from typedcan.model.naming import snake_case
+from typedcan.model.protocol import Message, Protocol, Signal, ValueTable
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NO_FIELDS = {*keyword.kwlist, *dir(builtins), "to_raw", "enums", "messages"}

@@ -6,8 +6,8 @@ import dataclasses
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from dbcspec.model import Message, Protocol, Signal
-from dbcspec.naming import LONGEST_NAME
+from typedcan.model.naming import LONGEST_NAME
+from typedcan.model.protocol import Message, Protocol, Signal
 
 
 @dataclass(frozen=True, slots=True)

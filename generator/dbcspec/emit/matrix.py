@@ -23,7 +23,7 @@ from dbcspec.emit.matrix_columns import (
 )
 from dbcspec.emit.matrix_sheets import add_cover, add_errata, add_nodes
 from dbcspec.emit.matrix_zip import workbook_bytes
-from dbcspec.model import Aspect, Message, Protocol, Signal
+from typedcan.model.protocol import Aspect, Message, Protocol, Signal
 
 COVER, MATRIX, NODES, ERRATA = "封面 Cover", "矩阵 Matrix", "节点与总线 Nodes", "勘误 Errata"
 

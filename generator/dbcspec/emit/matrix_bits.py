@@ -12,8 +12,8 @@ from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from dbcspec.emit.matrix_cells import A4, BIT_STYLES, fit_to_page, put, set_widths
-from dbcspec.layout import bits
-from dbcspec.model import Message, Protocol, Signal
+from typedcan.model.layout import bits
+from typedcan.model.protocol import Message, Protocol, Signal
 
 MOST_SHEETS = 200
 """A protocol with more messages gets no bit matrices: Excel would be slow and the tabs useless."""

@@ -13,7 +13,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.model import Signal
+from typedcan.model.protocol import Signal
 
 Value = str | int | Decimal | None
 

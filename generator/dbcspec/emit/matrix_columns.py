@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
-from dbcspec.acting import ActingCodes
 from dbcspec.emit.matrix_cells import LONGEST_TEXT, Value, raw_text
-from dbcspec.layout import float_limits
-from dbcspec.model import Aspect, ByteOrder, Code, Message, Protocol, SendType, Signal
+from typedcan.model.acting import ActingCodes
+from typedcan.model.layout import float_limits
+from typedcan.model.protocol import Aspect, ByteOrder, Code, Message, Protocol, SendType, Signal
 
 _MOST_LINES = 200
 _SEND_TYPES = {

@@ -8,7 +8,7 @@ from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from dbcspec.emit.matrix_cells import A4, Value, fit_to_page, put, put_table, set_widths
-from dbcspec.model import Aspect, Protocol
+from typedcan.model.protocol import Aspect, Protocol
 
 _COVER_LINE = 62
 """Characters that fit into a line of the cover."""

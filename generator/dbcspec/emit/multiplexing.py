@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.model import Message, Signal
+from typedcan.model.protocol import Message, Signal
 
 
 def marker(signal: Signal) -> str:

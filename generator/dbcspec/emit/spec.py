@@ -10,12 +10,12 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from dbcspec.acting import usual_start
 from dbcspec.emit.spec_yaml import Pairs, flow_entries, list_lines, mapping_lines, scalar
-from dbcspec.layout import float_limits
-from dbcspec.model import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
-from dbcspec.naming import field_name, shared_prefix
-from dbcspec.numbers import number
+from typedcan.model.acting import usual_start
+from typedcan.model.layout import float_limits
+from typedcan.model.naming import field_name, shared_prefix
+from typedcan.model.numbers import number
+from typedcan.model.protocol import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
 
 _TYPES = {SendType.CYCLIC: "Cyclic", SendType.IF_ACTIVE: "IfActive", SendType.EVENT: "Event"}
 

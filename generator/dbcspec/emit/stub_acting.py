@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dbcspec.acting import ActingCodes
+from typedcan.model.acting import ActingCodes
 
 _LONGEST_LINE = 100
 _INDENT = 12

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dbcspec.emit.stub_docs import quote
-from dbcspec.model import Message, Protocol, Signal
+from typedcan.model.protocol import Message, Protocol, Signal
 
 _LONGEST_LINE = 100
 

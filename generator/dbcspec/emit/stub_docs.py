@@ -6,9 +6,9 @@ import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
-from dbcspec.layout import float_limits
-from dbcspec.model import Message, Signal
-from dbcspec.numbers import number
+from typedcan.model.layout import float_limits
+from typedcan.model.numbers import number
+from typedcan.model.protocol import Message, Signal
 
 _WIDTH = 92
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from dbcspec.emit.kinds import Kind, kind_of
 from dbcspec.emit.stub_acting import acting_codes
 from dbcspec.emit.stub_branches import Conditions, conditions
 from dbcspec.emit.stub_docs import field_doc, quote
-from dbcspec.model import ByteOrder, Message, Signal, ValueTable
-from dbcspec.naming import member_names
+from typedcan.model.kinds import Kind, kind_of
+from typedcan.model.naming import member_names
+from typedcan.model.protocol import ByteOrder, Message, Signal, ValueTable
 
 _TABLE_BITS = 10
 _CODE_BITS = 8

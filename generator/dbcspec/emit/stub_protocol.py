@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from dbcspec.emit.stub_docs import quote
-from dbcspec.model import Message, Protocol, SendType, Signal, Transfer
+from typedcan.model.protocol import Message, Protocol, SendType, Signal, Transfer
 
 _LONGEST_LINE = 100
 

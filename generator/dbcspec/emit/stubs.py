@@ -5,7 +5,6 @@ from __future__ import annotations
 import builtins
 import keyword
 
-from dbcspec.emit.kinds import Kind, enums
 from dbcspec.emit.stub_branches import Branches, called, declared, selected
 from dbcspec.emit.stub_docs import enum_doc, message_doc, quote
 from dbcspec.emit.stub_fields import (
@@ -19,8 +18,9 @@ from dbcspec.emit.stub_fields import (
 )
 from dbcspec.emit.stub_protocol import References, tuple_of
 from dbcspec.emit.templating import template
-from dbcspec.layout import whole_byte
-from dbcspec.model import Message, Protocol
+from typedcan.model.kinds import Kind, enums
+from typedcan.model.layout import whole_byte
+from typedcan.model.protocol import Message, Protocol
 
 _LONGEST_LINE = 100
 TAKEN = {

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.errors import Location
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import NOWHERE, Bus, Message, Protocol
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Bus, Message, Protocol
 
 _CLASSIC_BYTES = 8
 _STUFFED_BITS = {False: 34, True: 54}

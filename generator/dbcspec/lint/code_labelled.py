@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.codes import is_numbering, value_codes
 from dbcspec.lint.places import Places, has_room
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import Signal
+from typedcan.model.codes import is_numbering, value_codes
+from typedcan.model.protocol import Signal
 
 _MOST_VALUES = 16
 

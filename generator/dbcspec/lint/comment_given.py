@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import NOWHERE, Message, Signal
+from typedcan.model.protocol import NOWHERE, Message, Signal
 
 
 def _check(subject: Subject) -> Iterator[Found]:

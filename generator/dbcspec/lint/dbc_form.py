@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.errors import Location
 from dbcspec.fix import repair_form
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.errors import Location
 
 
 def _check(subject: Subject) -> Iterator[Found]:

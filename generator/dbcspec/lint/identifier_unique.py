@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import Message
+from typedcan.model.protocol import Message
 
 _HIGHEST = {False: (11, 0x7FF), True: (29, 0x1FFF_FFFF)}
 

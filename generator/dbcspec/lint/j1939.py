@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dbcspec.model import Message, Node, Protocol
+from typedcan.model.protocol import Message, Node, Protocol
 
 GLOBAL_ADDRESS = 255
 NULL_ADDRESS = 254

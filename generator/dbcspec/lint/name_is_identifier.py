@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import NOWHERE, Aspect
-from dbcspec.naming import name_fault
+from typedcan.model.naming import name_fault
+from typedcan.model.protocol import NOWHERE, Aspect
 
 
 def _check(subject: Subject) -> Iterator[Found]:

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dbcspec.lint.name_spaces import name_spaces
 from dbcspec.lint.places import Places, value_tables
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import Aspect
-from dbcspec.naming import member_names
+from typedcan.model.naming import member_names
+from typedcan.model.protocol import Aspect
 
 _C = """
     auto break case char const continue default do double else enum extern float for goto if

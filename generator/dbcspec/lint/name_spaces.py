@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from dbcspec.errors import Location
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Subject
-from dbcspec.model import NOWHERE, Aspect, Message
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Aspect, Message
 
 
 class Named(NamedTuple):

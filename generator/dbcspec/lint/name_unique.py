@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.lint.name_spaces import name_spaces
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import Message
+from typedcan.model.protocol import Message
 
 
 def _check(subject: Subject) -> Iterator[Found]:

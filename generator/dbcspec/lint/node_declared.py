@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from dbcspec.errors import Location
 from dbcspec.lint.places import node_names
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import NOWHERE, Protocol
 from dbcspec.rows import Spec
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Protocol
 
 _Mention = tuple[Location, str, str, str]
 """Place, the node named there, by what, and the message that this is or belongs to, if any."""

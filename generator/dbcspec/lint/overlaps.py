@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 
-from dbcspec.layout import bits
 from dbcspec.lint.places import has_room
-from dbcspec.model import Message, Signal
+from typedcan.model.layout import bits
+from typedcan.model.protocol import Message, Signal
 
 _Condition = Mapping[str, frozenset[int]]
 """Each multiplexer above a signal, with the values under which the signal is there."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import SendType
+from typedcan.model.protocol import SendType
 
 _PERIODIC = {SendType.CYCLIC: "always", SendType.IF_ACTIVE: "while its condition holds"}
 

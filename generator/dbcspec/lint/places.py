@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dbcspec.errors import Location
 from dbcspec.lint.rule import Subject
-from dbcspec.model import NOWHERE, Message, Protocol, Signal, ValueTable
 from dbcspec.rows import SignalRow, Spec
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Message, Protocol, Signal, ValueTable
 
 
 class Places:

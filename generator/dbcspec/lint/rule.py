@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from dbcspec.errors import Fault, Location
-from dbcspec.model import NOWHERE, Protocol
+from dbcspec.errors import Fault
 from dbcspec.rows import Spec
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Protocol
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.layout import bits
 from dbcspec.lint.places import Places, has_room
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.layout import bits
 
 
 def _check(subject: Subject) -> Iterator[Found]:

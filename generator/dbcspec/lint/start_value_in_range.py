@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from dbcspec.lint.places import Places, has_room
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import Signal
+from typedcan.model.protocol import Signal
 
 
 def _check(subject: Subject) -> Iterator[Found]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dbcspec.lint.places import Places, value_tables
 from dbcspec.lint.rule import Found, Rule, Subject
 from dbcspec.lint.texts import Use, texts
-from dbcspec.model import ValueTable
+from typedcan.model.protocol import ValueTable
 
 _LONGEST_LABEL = 63
 _LONGEST_LINE = 5999

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from dbcspec.errors import Location
 from dbcspec.lint.places import Places, value_tables
 from dbcspec.lint.rule import Subject
-from dbcspec.model import NOWHERE, Aspect, Protocol
 from dbcspec.rows import Spec
+from typedcan.model.errors import Location
+from typedcan.model.protocol import NOWHERE, Aspect, Protocol
 
 
 class Use(Enum):

@@ -10,7 +10,7 @@ from difflib import SequenceMatcher
 
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.model import ValueTable
+from typedcan.model.protocol import ValueTable
 
 _ALIKE = 0.5
 

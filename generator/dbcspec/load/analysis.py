@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from dbcspec.load.response import Response, Time, worst_case_responses
 from dbcspec.load.traffic import Scenario, Size, bus_messages, frames_of, streams
-from dbcspec.model import Bus, Message, Protocol
+from typedcan.model.protocol import Bus, Message, Protocol
 
 _MOST_FRAMES = 255
 """Of one group: frame numbers have eight bits."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from dbcspec.load.frame_time import frame_bits
 from dbcspec.load.response import Stream, Time
-from dbcspec.model import Bus, Message, Protocol, SendType, Transfer
+from typedcan.model.frame_time import frame_bits
+from typedcan.model.protocol import Bus, Message, Protocol, SendType, Transfer
 
 
 @dataclass(frozen=True, slots=True)

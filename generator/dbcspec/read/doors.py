@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dbcspec.compiled import compile_spec
-from dbcspec.errors import Fault, ReadError
-from dbcspec.model import Protocol
-from dbcspec.read.dbc import FORMATS, read_any
+from dbcspec.errors import Fault
 from dbcspec.read.git import checked_out, split_revision
 from dbcspec.rows import Spec
+from typedcan.databases.dbc import FORMATS, read_any
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Protocol
 
 MATRIX = ".xlsx"
 """How the name of a matrix ends."""

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from dbcspec.errors import ReadError
+from typedcan.model.errors import ReadError
 
 _DRIVE = re.compile(r"[A-Za-z]:[\\/]")
 _FILE_MODES = frozenset({"100644", "100755", "100664"})

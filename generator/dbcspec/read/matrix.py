@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from dbcspec.errors import Fault, ReadError, SpecError
-from dbcspec.model import Aspect, Bus, Erratum, Node, Protocol
+from dbcspec.errors import Fault, SpecError
 from dbcspec.read import matrix_headings as known
 from dbcspec.read.matrix_acting import ACTING_COLUMNS
 from dbcspec.read.matrix_grid import CellValue, Grid, read_grids
@@ -14,6 +13,8 @@ from dbcspec.read.matrix_messages import read_messages
 from dbcspec.read.matrix_row import Row, Sheet, open_sheet
 from dbcspec.read.matrix_signal import SharedTables
 from dbcspec.read.matrix_values import names_of, raw_of, text_of, whole_of
+from typedcan.model.errors import ReadError
+from typedcan.model.protocol import Aspect, Bus, Erratum, Node, Protocol
 
 _LARGEST_ADDRESS = 255
 _MOST_BIT_RATE = 100_000_000

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dbcspec.acting import ActingCodes
 from dbcspec.read.matrix_grid import CellValue
 from dbcspec.read.matrix_headings import normal
 from dbcspec.read.matrix_row import Row
 from dbcspec.read.matrix_values import CellError, raw_of, raws_of, text_of
+from typedcan.model.acting import ActingCodes
 
 ACTING_COLUMNS = ("acting", "safe", "acts_as", "acting_reference")
 """The columns that together say what acts."""

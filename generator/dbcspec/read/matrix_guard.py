@@ -14,7 +14,7 @@ from xml.parsers import expat
 
 from openpyxl.utils.cell import column_index_from_string
 
-from dbcspec.errors import ReadError
+from typedcan.model.errors import ReadError
 
 LARGEST_FILE = 32 * 2**20
 """Bytes that the file may have, packed."""

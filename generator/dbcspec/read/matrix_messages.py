@@ -7,12 +7,12 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from dbcspec.model import Checksum, Counter, Message, SendType, Signal
 from dbcspec.read.matrix_grid import CellValue
 from dbcspec.read.matrix_headings import normal
 from dbcspec.read.matrix_row import Row, Sheet
 from dbcspec.read.matrix_signal import SharedTables, SignalDraft
 from dbcspec.read.matrix_values import CellError, identifier_of, names_of, text_of, whole_of
+from typedcan.model.protocol import Checksum, Counter, Message, SendType, Signal
 
 _MESSAGE_KEYS = ("frame_format", "send_type", "period", "condition", "msg_length", "msg_title")
 _SHARED_KEYS = ("title", "english", "reference", "errata")

@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from dbcspec.errors import Fault, Location
+from dbcspec.errors import Fault
 from dbcspec.read.matrix_grid import CellValue, Grid
 from dbcspec.read.matrix_headings import Table, normal
 from dbcspec.read.matrix_values import CellError, text_of
+from typedcan.model.errors import Location
 
 T = TypeVar("T")
 

@@ -6,9 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 
-from dbcspec.acting import usual_start
-from dbcspec.layout import float_limits
-from dbcspec.model import ByteOrder, Code, Signal, ValueTable
 from dbcspec.read.matrix_acting import acting_of
 from dbcspec.read.matrix_grid import CellValue
 from dbcspec.read.matrix_headings import normal
@@ -23,6 +20,9 @@ from dbcspec.read.matrix_values import (
     text_of,
     whole_of,
 )
+from typedcan.model.acting import usual_start
+from typedcan.model.layout import float_limits
+from typedcan.model.protocol import ByteOrder, Code, Signal, ValueTable
 
 _MOST_BITS = 4_096
 _MOST_START = 8 * 65_536

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from dbcspec.errors import ReadError
 from dbcspec.report.as_github import to_github
 from dbcspec.report.as_gitlab import to_gitlab
 from dbcspec.report.as_html import to_html
@@ -15,6 +14,7 @@ from dbcspec.report.as_markdown import to_markdown
 from dbcspec.report.as_sarif import to_sarif
 from dbcspec.report.as_text import to_text
 from dbcspec.report.item import Report
+from typedcan.model.errors import ReadError
 
 FORMATS: Mapping[str, Callable[[Report], str]] = {
     "text": to_text,

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dbcspec.errors import Location
+from typedcan.model.errors import Location
 
 LEVELS = ("error", "wire", "source", "additive", "cosmetic")
 """From the gravest; lint findings are errors, those of a comparison have its classes."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from dbcspec.errors import ReadError
 from dbcspec.report.as_markdown import escaped
 from dbcspec.report.item import RuleInfo
 from dbcspec.report.texts import dump, visible
+from typedcan.model.errors import ReadError
 
 
 def print_rules(rules: Sequence[RuleInfo], format: str) -> str:

@@ -12,7 +12,7 @@ import codecs
 import re
 from pathlib import Path
 
-from dbcspec.errors import Location, ReadError
+from typedcan.model.errors import Location, ReadError
 
 LARGEST_FILE = 16 * 2**20
 """Bytes that a file may have unless the caller says otherwise; cantools reads 1 MB in seconds."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from decimal import Decimal
 
-from dbcspec.model import ByteOrder, Signal
+from typedcan.model.protocol import ByteOrder, Signal
 
 
 def bits(signal: Signal) -> tuple[int, ...]:

@@ -6,7 +6,7 @@ from dataclasses import fields, is_dataclass
 from decimal import Decimal
 from enum import Enum
 
-from dbcspec.numbers import number
+from typedcan.model.numbers import number
 
 
 def canonical(value: object) -> str:

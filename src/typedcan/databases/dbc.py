@@ -13,11 +13,11 @@ import cantools.database
 from cantools.database.can import Database
 from cantools.database.errors import UnsupportedDatabaseFormatError
 
-from dbcspec.errors import Location, ReadError
-from dbcspec.model import Protocol
-from dbcspec.read.database import Labels, Places, to_protocol
-from dbcspec.read.dbc_text import UNASSIGNED, DbcText
-from dbcspec.read.encoding import LARGEST_FILE, read_text
+from typedcan.databases.database import Labels, Places, to_protocol
+from typedcan.databases.dbc_text import UNASSIGNED, DbcText
+from typedcan.databases.encoding import LARGEST_FILE, read_text
+from typedcan.model.errors import Location, ReadError
+from typedcan.model.protocol import Protocol
 
 FORMATS = {".dbc": "dbc", ".kcd": "kcd", ".sym": "sym", ".arxml": "arxml"}
 """Ends of file names, in small letters, and what cantools calls the format."""
@@ -39,10 +39,10 @@ def read_dbc(
 ) -> Protocol:
     """Read a DBC file, sound or not: overlaps and signals outside their message are kept.
 
-    Without ``encoding`` it is found out, see `dbcspec.read.encoding`. ``shown_as`` is what errors
-    and locations call the file, ``largest`` the bytes it may have, ``labels`` which labels mean
-    that a code is no value. A range of [0|0] counts as not given. Of several senders the first is
-    kept. Raises `ReadError`.
+    Without ``encoding`` it is found out, see `typedcan.databases.encoding`. ``shown_as`` is what
+    errors and locations call the file, ``largest`` the bytes it may have, ``labels`` which labels
+    mean that a code is no value. A range of [0|0] counts as not given. Of several senders the
+    first is kept. Raises `ReadError`.
     """
     name = shown_as or str(path)
     with _collection_paused():

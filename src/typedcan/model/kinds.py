@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from enum import Enum
 
-from dbcspec.codes import is_numbering, value_codes
-from dbcspec.model import Message, Signal, ValueTable
+from typedcan.model.codes import is_numbering, value_codes
+from typedcan.model.protocol import Message, Signal, ValueTable
 
 
 class Kind(Enum):

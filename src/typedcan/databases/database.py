@@ -13,11 +13,11 @@ from cantools.database.can import Message as CantoolsMessage
 from cantools.database.can import Node as CantoolsNode
 from cantools.database.can import Signal as CantoolsSignal
 
-from dbcspec import model
-from dbcspec.errors import Location, ReadError
-from dbcspec.layout import float_limits
-from dbcspec.naming import field_name, shared_prefix
-from dbcspec.read.value_tables import ValueTables, code_labelled, codes_of
+from typedcan.databases.value_tables import ValueTables, code_labelled, codes_of
+from typedcan.model import protocol as model
+from typedcan.model.errors import Location, ReadError
+from typedcan.model.layout import float_limits
+from typedcan.model.naming import field_name, shared_prefix
 
 INVALID_LABELS = frozenset(
     {"signal invalid", "invalid", "sna", "signal not available", "not available", "信号无效"}

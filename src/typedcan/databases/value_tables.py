@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from dbcspec.model import Code, ValueTable
+from typedcan.model.protocol import Code, ValueTable
 
 Codes = tuple[tuple[int, str], ...]
 """Raw values and their labels, ascending."""

@@ -12,7 +12,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from dbcspec.errors import Location, ReadError
+from typedcan.model.errors import Location, ReadError
 
 UNASSIGNED = "VECTOR__INDEPENDENT_SIG_MSG"
 """The message that holds signals of no message; it is none itself."""

@@ -15,9 +15,9 @@ from decimal import Decimal
 from enum import Enum
 from functools import cached_property
 
-from dbcspec.acting import ActingCodes, no_value
-from dbcspec.canonical import canonical
-from dbcspec.errors import Location
+from typedcan.model.acting import ActingCodes, no_value
+from typedcan.model.canonical import canonical
+from typedcan.model.errors import Location
 
 NOWHERE = Location("")
 

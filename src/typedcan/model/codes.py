@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dbcspec.model import Code, Signal
+from typedcan.model.protocol import Code, Signal
 
 
 def value_codes(signal: Signal) -> tuple[Code, ...]:

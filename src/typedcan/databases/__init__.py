@@ -1,0 +1,1 @@
+"""DBC, KCD, SYM and ARXML files to the model, through cantools."""

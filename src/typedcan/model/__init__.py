@@ -1,0 +1,1 @@
+"""What a protocol is: frozen, and without dependencies."""
