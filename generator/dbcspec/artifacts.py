@@ -47,7 +47,7 @@ def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
             "ascii"
         )
     if config.stubs:
-        for name, text in emit_stubs(protocol, config.runtime).items():
+        for name, text in emit_stubs(protocol).items():
             made[f"{config.stubs}/{name}"] = text.encode("utf-8")
         made[f"{config.stubs}/{config.name}.dbc"] = main
     for name, text in emit_json_schemas(DOCUMENTS).items():
@@ -55,10 +55,10 @@ def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
     return made
 
 
-def foreign_artifacts(protocol: Protocol, name: str, runtime: str) -> dict[str, bytes]:
+def foreign_artifacts(protocol: Protocol, name: str) -> dict[str, bytes]:
     """What is generated of a protocol that is not the project's: DBC, stubs and matrix."""
     named = dataclasses.replace(protocol, name=name)
-    made = emit_foreign(named, name, runtime=runtime)
+    made = emit_foreign(named, name)
     return {**made, f"{name}.xlsx": emit_matrix(named)}
 
 

@@ -29,7 +29,8 @@ _OPTIONAL_WAIVER_KEYS = {"message"}
 class Config:
     """Paths are relative to ``root``, the folder of pyproject.toml.
 
-    ``stubs`` and ``runtime`` are empty where a project wants no Python.
+    ``stubs`` is empty where a project wants no Python. ``runtime`` says nothing any more: stubs
+    stand on `typedcan`.
     """
 
     root: Path
@@ -101,8 +102,6 @@ def _config(path: Path, text: str, table: Mapping[str, Any]) -> Config:
             raise ReadError(f"{path}: [tool.dbcspec] {key} is empty; a dot is the folder itself")
     if not texts.get("name"):
         raise ReadError(f"{path}: [tool.dbcspec] needs a name for the database")
-    if bool(texts.get("stubs")) != bool(texts.get("runtime")):
-        raise ReadError(f"{path}: [tool.dbcspec] stubs and runtime go together")
     return Config(root=path.parent, lint=_options(path, text, table), **texts)
 
 

@@ -6,10 +6,9 @@ from importlib import import_module
 from typing import Any
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Counts, Fault, Link, Received
-from swapcan.codec import Codec, decode, encode
-from swapcan.database import dbc_text, message_type
-from swapcan.errors import (
+from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.errors import (
     ChecksumError,
     DatabaseError,
     DecodeError,
@@ -20,13 +19,13 @@ from swapcan.errors import (
     RequestTimeoutError,
     SendingError,
     StillActingError,
-    SwapcanError,
     TransferError,
     UnknownFrameError,
     UnknownMessageError,
     UnknownNodeError,
 )
-from swapcan.message import Message, SignalState
+from typedcan.wire.link import Counts, Fault, Received
+from typedcan.wire.message import Message, SignalState
 
 # Live nodes are imported when they are used: a program that decodes a frame starts without them.
 # All names, with their types, stand in __init__.pyi.
@@ -89,8 +88,8 @@ __all__ = [
     "State",
     "StateChanged",
     "StillActingError",
-    "SwapcanError",
     "TransferError",
+    "TypedcanError",
     "UnknownFrameError",
     "UnknownMessageError",
     "UnknownNodeError",

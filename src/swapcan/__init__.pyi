@@ -1,25 +1,4 @@
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Counts, Fault, Link, Received
-from swapcan.codec import Codec, decode, encode
-from swapcan.database import dbc_text, message_type
-from swapcan.errors import (
-    ChecksumError,
-    DatabaseError,
-    DecodeError,
-    EncodeError,
-    LengthError,
-    ReceiveTimeoutError,
-    RequestError,
-    RequestTimeoutError,
-    SendingError,
-    StillActingError,
-    SwapcanError,
-    TransferError,
-    UnknownFrameError,
-    UnknownMessageError,
-    UnknownNodeError,
-)
-from swapcan.message import Message, SignalState
 from swapcan.node import (
     BatteryInfo,
     BusBack,
@@ -34,6 +13,26 @@ from swapcan.node import (
 )
 from swapcan.supervise import NotSeen, SignalChanged, State, StateChanged
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
+from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.errors import (
+    ChecksumError,
+    DatabaseError,
+    DecodeError,
+    EncodeError,
+    LengthError,
+    ReceiveTimeoutError,
+    RequestError,
+    RequestTimeoutError,
+    SendingError,
+    StillActingError,
+    TransferError,
+    UnknownFrameError,
+    UnknownMessageError,
+    UnknownNodeError,
+)
+from typedcan.wire.link import Counts, Fault, Received
+from typedcan.wire.message import Message, SignalState
 
 __all__ = [
     "PROTOCOL",
@@ -72,8 +71,8 @@ __all__ = [
     "State",
     "StateChanged",
     "StillActingError",
-    "SwapcanError",
     "TransferError",
+    "TypedcanError",
     "UnknownFrameError",
     "UnknownMessageError",
     "UnknownNodeError",

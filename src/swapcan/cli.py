@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
 from swapcan.console import CommandError, Parser, finish, note, say
-from swapcan.errors import one_line
+from typedcan.wire.errors import one_line
 
 _COMMANDS = (
     demo.COMMAND,

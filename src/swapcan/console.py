@@ -12,10 +12,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NoReturn
 
-from swapcan.errors import SwapcanError
+from typedcan.model.errors import TypedcanError
 
 
-class CommandError(SwapcanError):
+class CommandError(TypedcanError):
     """Something that the user of the command line can mend."""
 
 

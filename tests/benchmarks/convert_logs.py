@@ -36,10 +36,10 @@ import pandas as pd
 from cantools.database.can import Database
 
 import swapcan
-from swapcan.errors import EncodeError
 from swapcan.logs.convert import convert_logs
-from swapcan.message import Message, PhysicalField
 from swapcan.messages import MESSAGES
+from typedcan.wire.errors import EncodeError
+from typedcan.wire.message import Message, PhysicalField
 
 _FEW = 20_000
 """Frames for those who take them one by one."""

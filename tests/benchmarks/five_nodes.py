@@ -24,10 +24,10 @@ import can
 
 from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Receiver
-from swapcan.message import Message
 from swapcan.simulate.plan import planned_step
 from swapcan.simulate.simulation import Simulation
+from swapcan.wire import Receiver
+from typedcan.wire.message import Message
 
 CYCLES = 5
 """Messages with fewer cycles are not judged."""

@@ -11,7 +11,7 @@ import can
 import cantools
 from cantools.database.can import Database, Message
 
-from swapcan.database import dbc_text
+from swapcan.wire import dbc_text
 
 Frames = tuple[can.Message, ...]
 Alteration = Callable[[Frames], Frames]

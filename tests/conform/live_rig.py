@@ -8,12 +8,12 @@ from copy import copy
 
 import can
 
-from swapcan.clock import SimulatedClock
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.stage import Stage
 from swapcan.messages import V2B_CMD
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.wire.clock import SimulatedClock
 
 MOST_SECONDS = 120.0
 """Longer than any scenario: a clock that goes further is one that nobody stops."""

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import can
 import pytest
 
-from swapcan.clock import SimulatedClock, SystemClock
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.wire.clock import SimulatedClock, SystemClock
 
 
 class Given(can.BusABC):

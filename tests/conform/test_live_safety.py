@@ -13,7 +13,6 @@ from swapcan import encode
 from swapcan.conform.live.scenario import ScenarioError
 from swapcan.conform.live.scenarios import SCENARIOS
 from swapcan.conform.live.stage import LEAVING, LOOK_OUT, Left, Stage
-from swapcan.errors import SwapcanError
 from swapcan.messages import (
     B2V_ST1,
     V2B_CMD,
@@ -23,6 +22,7 @@ from swapcan.messages import (
     ChargeControl,
     HvCommand,
 )
+from typedcan.model.errors import TypedcanError
 
 ON_OFF = SCENARIOS["hv-on-off"]
 
@@ -119,7 +119,7 @@ def ignore(*_: object) -> None:
     """Do nothing."""
 
 
-class DiskFullError(SwapcanError):
+class DiskFullError(TypedcanError):
     """A record cannot be written."""
 
 

@@ -14,7 +14,6 @@ from swapcan.conform import Judge, Judgement, Status, judge_log
 from swapcan.conform.findings import KEPT
 from swapcan.conform.rules import timing
 from swapcan.logs.read import open_log
-from swapcan.message import Message
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST1,
@@ -31,6 +30,7 @@ from swapcan.messages import (
     C2B_ACStatus,
     V2B_RQData,
 )
+from typedcan.wire.message import Message
 
 CASES = Path(__file__).with_name("cases")
 LOGS = [CASES / rule.id / log for rule in timing.RULES for log in ("passes.log", "fails.log")]

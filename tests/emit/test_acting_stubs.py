@@ -18,10 +18,10 @@ from emit.other_protocol import signal
 
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import dbc_faults, foreign_artifacts
-from swapcan.message import Message as TypedMessage
 from typedcan.model.acting import ActingCodes
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Message, Protocol, Signal
+from typedcan.wire.message import Message as TypedMessage
 
 
 @pytest.fixture(scope="module")

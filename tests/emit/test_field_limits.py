@@ -14,8 +14,8 @@ from cantools.database.can import Database
 
 from dbcspec.emit.foreign import foreign_artifacts
 from swapcan import EncodeError
-from swapcan.packing import Packer
 from typedcan.databases.dbc import read_dbc
+from typedcan.wire.packing import Packer
 
 WIDE = """VERSION ""
 

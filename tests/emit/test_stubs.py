@@ -23,26 +23,23 @@ from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.stubs import emit_stubs
 from swapcan import SignalState
 from swapcan import messages as m
-from swapcan.message import Code2, Code5
 from swapcan.messages import MESSAGES
-from swapcan.packing import Packer
 from typedcan.model.protocol import Protocol, ValueTable
+from typedcan.wire.message import Code2, Code5
+from typedcan.wire.packing import Packer
 
 PACKAGES = {"othercar": OTHER, "plaincar": PLAIN}
 
 
 @pytest.fixture(scope="module")
 def others(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a package per made-up protocol, on top of this project's base classes."""
+    """A folder with a package per made-up protocol."""
     folder = tmp_path_factory.mktemp("stubs")
     for name, protocol in PACKAGES.items():
         generated = folder / name / "_generated"
         generated.mkdir(parents=True)
         (folder / name / "__init__.py").touch()
-        for module in ("message", "protocol"):
-            text = f"from swapcan.{module} import *\n"
-            (folder / name / f"{module}.py").write_text(text, "utf-8")
-        for file, text in emit_stubs(protocol, name).items():
+        for file, text in emit_stubs(protocol).items():
             (generated / file).write_text(text, "utf-8")
     return folder
 

@@ -22,9 +22,9 @@ from fields.meant import real_number
 
 from dbcspec.emit.foreign import foreign_artifacts
 from swapcan import EncodeError
-from swapcan.message import FloatField
-from swapcan.packing import Packer
 from typedcan.databases.dbc import read_dbc
+from typedcan.wire.message import FloatField
+from typedcan.wire.packing import Packer
 
 LARGEST = {32: Fraction(2**128 - 2**104), 64: Fraction(2**1024 - 2**971)}
 """Of the floats of so many bits."""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from swapcan import EncodeError, SignalState
-from swapcan.message import FloatField
+from typedcan.wire.message import FloatField
 
 FLOAT = FloatField(
     name="ratio", dbc_name="Ratio", title="", length=32, factor=0.5, minimum=-1e39, maximum=1e39

@@ -15,8 +15,8 @@ from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock, FrameFlag
 from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import protocol_of
-from swapcan.message import Message, SignalState
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
+from typedcan.wire.message import Message, SignalState
 
 INVALID = SignalState.INVALID
 Reading = float | SignalState

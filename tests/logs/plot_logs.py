@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 import swapcan
 from swapcan.commands.plot import COMMAND
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 START = 1_700_000_000.0
 

@@ -15,9 +15,9 @@ from cantools.database.can import Database
 from defaults import default_of, needed_by
 
 import swapcan
-from swapcan.errors import EncodeError
-from swapcan.message import Message, PhysicalField
 from swapcan.messages import MESSAGES
+from typedcan.wire.errors import EncodeError
+from typedcan.wire.message import Message, PhysicalField
 
 START = 1_700_000_000.0
 """When the logs begin, in seconds since 1970."""

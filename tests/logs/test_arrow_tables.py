@@ -19,8 +19,8 @@ from swapcan.logs.convert import tables
 from swapcan.logs.pipeline import Options
 from swapcan.logs.plan import Mode, SelectionError
 from swapcan.logs.protocol import DbcError
-from swapcan.message import SignalState
 from swapcan.messages import B2V_ST2, MESSAGES
+from typedcan.wire.message import SignalState
 
 _DBC = Path(__file__).parents[1] / "fixtures" / "dbc"
 _WORDS = {SignalState.INVALID: "invalid", SignalState.ABNORMAL: "abnormal"}

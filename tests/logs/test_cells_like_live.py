@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from logs.cell_logs import INVALID, Reading, Sent, put_together, totals, ucell
 
 from swapcan.logs.cells import CELLS, CellColumns, CycleCounts
-from swapcan.message import SignalState
 from swapcan.messages import B2V_BattInfo2
+from typedcan.wire.message import SignalState
 
 transfer: Any = pytest.importorskip(
     "swapcan.transfer", reason="the live runtime's transfers are not part of this checkout"

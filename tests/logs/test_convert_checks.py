@@ -17,7 +17,6 @@ from logs.decode_databases import Frame, block_of
 from logs.table_logs import START, traffic, write_frames
 
 import swapcan
-from swapcan.bus import Fault, Received, Receiver
 from swapcan.logs.checks import Checks, Faults
 from swapcan.logs.convert import tables
 from swapcan.logs.decode import Decoder
@@ -26,6 +25,8 @@ from swapcan.logs.pipeline import Options
 from swapcan.logs.protocol import protocol_of
 from swapcan.logs.read import open_log
 from swapcan.messages import B2V_ST1, B2V_ST2, BSU_BMS_0, MESSAGES, V2B_CMD, B2V_BattInfo2
+from swapcan.wire import Receiver
+from typedcan.wire.link import Fault, Received
 
 
 def _checked(log: Path, block_size: int, *, keep: bool = False) -> tuple[Faults, Counter[str]]:

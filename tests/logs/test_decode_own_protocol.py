@@ -18,8 +18,8 @@ from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameFlag
 from swapcan.logs.plan import Mode
 from swapcan.logs.reserved import reserved_codes
-from swapcan.message import SignalState
 from swapcan.messages import MESSAGES
+from typedcan.wire.message import SignalState
 
 
 @pytest.fixture(scope="module")

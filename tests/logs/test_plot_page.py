@@ -12,9 +12,9 @@ from logs.cell_logs import INVALID, Reading, cycle, totals
 from logs.plot_logs import array, curve, data_of, marks, plot, spans, times, write
 
 from swapcan.console import CommandError
-from swapcan.errors import SwapcanError
-from swapcan.message import Message
 from swapcan.messages import B2V_ST1, B2V_ST2, BmsState
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.message import Message
 
 
 def soc(value: Reading, current: Reading = 0.0) -> B2V_ST2:
@@ -204,7 +204,7 @@ def test_what_cannot_be_done_is_one_line_and_leaves_nothing(
 ) -> None:
     write(tmp_path / "drive.asc", [(0.0, soc(80))])
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(SwapcanError, match=text) as caught:
+    with pytest.raises(TypedcanError, match=text) as caught:
         plot("drive.asc", *arguments)
     assert "\n" not in str(caught.value)
     assert [path.name for path in tmp_path.iterdir()] == ["drive.asc"]

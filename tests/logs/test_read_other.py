@@ -16,8 +16,8 @@ from logs.log_files import (
     write_log,
 )
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.read import open_log
+from typedcan.model.errors import TypedcanError
 
 
 @pytest.mark.parametrize(
@@ -84,7 +84,7 @@ def test_a_database_that_is_none_is_damage(tmp_path: Path) -> None:
 
 def refusal(path: Path) -> str:
     """The one line that says why a log cannot be opened."""
-    with pytest.raises(SwapcanError) as caught:
+    with pytest.raises(TypedcanError) as caught:
         open_log(path)
     text = str(caught.value)
     assert "\n" not in text

@@ -10,11 +10,11 @@ import can
 import cantools
 from cantools.database.can import Database
 
-from swapcan.clock import SimulatedClock
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.rows import MessageRow, SignalRow
 from swapcan.monitor.session import Session
 from swapcan.monitor.watch import Watch
+from typedcan.wire.clock import SimulatedClock
 
 _DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"
 _XOR_IN_BYTE_0 = ("V2B_CMD", "V2B_RQData", "B2V_ST1", *(f"B2V_SysCode{n}" for n in range(1, 5)))

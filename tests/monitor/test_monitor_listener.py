@@ -13,11 +13,11 @@ import pytest
 from can.interfaces.virtual import VirtualBus
 from monitor.monitored import frame
 
-from swapcan.clock import SystemClock
 from swapcan.monitor.listener import Listener
 from swapcan.monitor.session import Session
 from swapcan.monitor.watch import Watch
 from swapcan.node.events import BusBack, BusLost
+from typedcan.wire.clock import SystemClock
 
 
 def wait_for(condition: Callable[[], bool]) -> None:

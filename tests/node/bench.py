@@ -10,9 +10,9 @@ from typing import Any
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import SimulatedClock
-from swapcan.message import Message
 from swapcan.node import Node
+from typedcan.wire.clock import SimulatedClock
+from typedcan.wire.message import Message
 
 
 class Recorder:

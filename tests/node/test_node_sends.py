@@ -12,7 +12,6 @@ from node.bench import Bench, Ear, Recorder, frames_on, gaps
 
 from swapcan import EncodeError, Message
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.errors import SendingError, UnknownNodeError
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST1,
@@ -25,6 +24,7 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.node.events import SendFailed
+from typedcan.wire.errors import SendingError, UnknownNodeError
 
 
 def test_a_cyclic_message_goes_out_with_the_period_of_the_standard(

@@ -12,7 +12,6 @@ import pytest
 from node.bench import Bench, frames_on
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.errors import RequestError, RequestTimeoutError
 from swapcan.messages import (
     B2V_RQ,
     B2V_BattInfo1,
@@ -25,6 +24,7 @@ from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
 from swapcan.node.request import Pending
 from swapcan.transfer import PackCode, Vin, split_pack_code, split_vin
+from typedcan.wire.errors import RequestError, RequestTimeoutError
 
 CODE = "001PB0A1234567890123ABCD"
 VIN = "LSVAA4187E2184847"

@@ -8,9 +8,9 @@ from itertools import pairwise
 import pytest
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.message import Message
 from swapcan.messages import B2V_ST2, B2V_ElecEnergy, B2V_Ucell
 from swapcan.node.schedule import Schedule
+from typedcan.wire.message import Message
 
 
 def sent(

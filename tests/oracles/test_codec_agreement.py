@@ -17,9 +17,9 @@ from oracles import reference_codec as reference
 
 import swapcan
 from swapcan import EncodeError, SignalState, message_type
-from swapcan.message import PhysicalField
 from swapcan.messages import MESSAGES
 from typedcan.model.protocol import Message, Protocol, Signal
+from typedcan.wire.message import PhysicalField
 
 NAMES = [message.NAME for message in MESSAGES]
 PAYLOADS = st.binary(min_size=8, max_size=8)

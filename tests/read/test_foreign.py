@@ -19,11 +19,11 @@ from cantools.database.can import Database
 from cantools.database.can import Message as CantoolsMessage
 
 from dbcspec.emit.foreign import dbc_faults, foreign_artifacts
-from swapcan.errors import EncodeError
-from swapcan.message import Message as TypedMessage
 from typedcan.databases.dbc import read_dbc
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Message, Protocol, Signal
+from typedcan.wire.errors import EncodeError
+from typedcan.wire.message import Message as TypedMessage
 
 FILES = sorted((Path(__file__).parent.parent / "fixtures" / "dbc").glob("*.dbc"))
 NOT_FOR_CANTOOLS = {

@@ -28,13 +28,14 @@ def test_the_wheel_has_both_packages_their_data_and_no_tests(wheel: Path) -> Non
         names = set(archive.namelist())
     assert {
         "swapcan/py.typed",
+        "typedcan/py.typed",
         "swapcan/_generated/caamtb-swap.dbc",
         "swapcan/_generated/messages.py",
         "dbcspec/emit/templates/dbc.j2",
         "dbcspec/cli.py",
     } <= names
     tops = {name.split("/")[0] for name in names if ".dist-info" not in name}
-    assert tops == {"swapcan", "dbcspec"}
+    assert tops == {"swapcan", "typedcan", "dbcspec"}
 
 
 def test_the_installed_wheel_decodes_with_its_own_dbc(wheel: Path, tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import swapcan
 from swapcan import Codec, Received
-from swapcan.bus import Receiver
 from swapcan.messages import B2V_ST2, B2V_ST3
+from swapcan.wire import Receiver
 
 DATABASE = cantools.database.load_string(swapcan.dbc_text(), "dbc")
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from simulate.outside import Outside
 
-from swapcan.message import SignalState
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -19,6 +18,7 @@ from swapcan.messages import (
 )
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.world import World
+from typedcan.wire.message import SignalState
 
 Pack = tuple[Bmu, Outside, World]
 """The pack, what is around it, and their time."""

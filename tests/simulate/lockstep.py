@@ -11,10 +11,10 @@ import sys
 
 import can
 
-from swapcan.clock import SimulatedClock
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
+from typedcan.wire.clock import SimulatedClock
 
 
 def main(names: str, plan: str, bus_options: str) -> None:

@@ -9,12 +9,12 @@ from typing import TypeVar
 import can
 
 from swapcan import Fault, Link, Received
-from swapcan.bus import Receiver
-from swapcan.clock import SimulatedClock
-from swapcan.message import Message
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.world import World
+from swapcan.wire import Receiver
+from typedcan.wire.clock import SimulatedClock
+from typedcan.wire.message import Message
 
 MessageT = TypeVar("MessageT", bound=Message)
 ParticipantT = TypeVar("ParticipantT", bound=Participant)

@@ -6,10 +6,10 @@ import dataclasses
 
 import pytest
 
-from swapcan.message import SignalState
 from swapcan.simulate.alarms import FAULT_NUMBERS, Alarms, Faults
 from swapcan.simulate.battery import Battery, Layout
 from swapcan.simulate.sensors import Extreme, Measurement, Sensors
+from typedcan.wire.message import SignalState
 
 
 def measured(battery: Battery | None = None, *faults: str, seconds: float = 2.0) -> Measurement:

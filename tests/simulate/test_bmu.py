@@ -11,8 +11,6 @@ from simulate.bmu_talk import OFF, ON, Pack, number, relays, states
 from simulate.outside import Outside
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.codec import encode
-from swapcan.message import Message, SignalState
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST0,
@@ -44,6 +42,8 @@ from swapcan.messages import (
 )
 from swapcan.simulate.bmu import PACK_CODE
 from swapcan.transfer import split_vin
+from swapcan.wire import encode
+from typedcan.wire.message import Message, SignalState
 
 VIN = "LDEMTRCK0R0000025"
 

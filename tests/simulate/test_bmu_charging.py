@@ -8,7 +8,6 @@ import pytest
 from simulate.bmu_talk import Pack
 from simulate.outside import Outside
 
-from swapcan.message import SignalState
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -28,6 +27,7 @@ from swapcan.messages import (
     HvCommand,
     RelayState,
 )
+from typedcan.wire.message import SignalState
 
 VOLTAGE = 79.9  # of the resting pack at its first state of charge
 IDLE = C2B_ACStatus(

@@ -10,7 +10,6 @@ from dataclasses import replace
 import pytest
 from simulate.outside import Outside, alone
 
-from swapcan.message import Message, SignalState
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -31,6 +30,7 @@ from swapcan.messages import (
 )
 from swapcan.simulate.battery import Battery, Layout
 from swapcan.simulate.bmu import Bmu
+from typedcan.wire.message import Message, SignalState
 
 ON = V2B_CMD(hv_on_off=HvCommand.HV_ON, vehicle_speed=0.0)
 CYCLE = 0.1

@@ -6,7 +6,6 @@ import pytest
 from simulate.bmu_talk import OFF, ON, Pack, number, relays, states
 from simulate.outside import Outside
 
-from swapcan.message import SignalState
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST0,
@@ -21,6 +20,7 @@ from swapcan.messages import (
     HvOffRequest,
     RelayState,
 )
+from typedcan.wire.message import SignalState
 
 
 def test_a_grave_fault_asks_for_high_voltage_off_until_it_is_gone(closed: Pack) -> None:

@@ -10,7 +10,6 @@ from defaults import default_of
 from simulate.bmu_talk import OFF, ON, Pack, number
 from simulate.outside import Outside, alone
 
-from swapcan.clock import SimulatedClock
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST2,
@@ -28,6 +27,7 @@ from swapcan.simulate.battery import Battery
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.world import World
+from typedcan.wire.clock import SimulatedClock
 
 
 def test_the_truck_draws_more_the_faster_it_drives_but_never_more_than_allowed(

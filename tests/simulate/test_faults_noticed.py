@@ -10,7 +10,6 @@ import pytest
 
 from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.message import Message
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -24,6 +23,7 @@ from swapcan.simulate.faults import FAULTS, TRANSMISSION_FAULTS, able_nodes, pla
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.simulation import Simulation
 from swapcan.supervise import SignalChanged, State, StateChanged
+from typedcan.wire.message import Message
 
 BEGIN, END = 3.0, 7.0
 """Seconds for which the faults are there."""

@@ -9,7 +9,6 @@ import pytest
 from simulate.commands import environment
 from simulate.wire_log import WireLog
 
-from swapcan.clock import SimulatedClock
 from swapcan.messages import BmsState, ChargeState, HvCommand
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.chg import Chg
@@ -18,6 +17,7 @@ from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.vcu import Vcu
 from swapcan.simulate.world import World
+from typedcan.wire.clock import SimulatedClock
 
 PLAN = "hv_on@0.5s, ask@1s, drive@2s+8s, charge@14s+6s, hv_off@21s"
 

@@ -8,8 +8,8 @@ from contextlib import ExitStack
 import can
 import pytest
 
-from swapcan.clock import SimulatedClock
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.wire.clock import SimulatedClock
 
 
 @pytest.fixture

@@ -12,8 +12,6 @@ from defaults import default_of
 
 from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import SimulatedClock
-from swapcan.message import Message
 from swapcan.node import Node
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from swapcan.simulate.faulty_bus import FaultyBus
@@ -21,6 +19,8 @@ from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.world import World
 from swapcan.supervise import State, StateChanged
+from typedcan.wire.clock import SimulatedClock
+from typedcan.wire.message import Message
 
 CYCLIC = [message for message in PROTOCOL.messages if message.PERIOD]
 CASES = [

@@ -13,13 +13,13 @@ from uuid import uuid4
 import can
 import pytest
 
-from swapcan.clock import SimulatedClock, SystemClock
 from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.participant import Participant, UnknownFaultError
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.tms import Tms
 from swapcan.simulate.world import World
+from typedcan.wire.clock import SimulatedClock, SystemClock
 
 
 class Stopwatch(Participant):

@@ -8,7 +8,6 @@ from typing import TypeVar
 import can
 
 from swapcan import Fault
-from swapcan.bus import Receiver
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -19,6 +18,7 @@ from swapcan.messages import (
     HvCommand,
     RelayState,
 )
+from swapcan.wire import Receiver
 
 T = TypeVar("T")
 

@@ -8,7 +8,8 @@ import can
 import cantools
 from cantools.database.can import Database
 
-from swapcan.bus import Fault, Received, Receiver
+from swapcan.wire import Receiver
+from typedcan.wire.link import Fault, Received
 
 DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"
 XOR_IN_BYTE_0 = {"V2B_CMD", "V2B_RQData", "B2V_ST1", "B2V_SysCode1"}

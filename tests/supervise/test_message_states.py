@@ -6,7 +6,6 @@ import pytest
 from supervise.arrivals import received, refused
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.errors import UnknownMessageError, UnknownNodeError
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST2,
@@ -17,6 +16,7 @@ from swapcan.messages import (
     B2V_Ucell,
 )
 from swapcan.supervise import NotSeen, State, StateChanged, SupervisionEvent, Supervisor
+from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
 
 NEVER_SEEN, ALIVE, LATE, LOST = State
 

@@ -6,9 +6,10 @@ import can
 from supervise.arrivals import frame
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Received, Receiver
 from swapcan.messages import B2V_ST1
 from swapcan.supervise import State, SupervisionEvent, Supervisor
+from swapcan.wire import Receiver
+from typedcan.wire.link import Received
 
 NO_FAULTS = {
     "length": 0,

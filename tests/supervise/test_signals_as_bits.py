@@ -10,13 +10,13 @@ from supervise.arrivals import frame
 import swapcan
 from swapcan import Message, Received
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.message import PhysicalField, SignalState
 from swapcan.messages import MESSAGES
 from swapcan.supervise import SignalChanged
 from swapcan.supervise.bit_places import bit_places, byte_order
 from swapcan.supervise.right_codes import right_codes
 from swapcan.supervise.signal_watch import WatchedField, watched_fields
 from swapcan.supervise.tracked_message import TrackedMessage
+from typedcan.wire.message import PhysicalField, SignalState
 
 DATABASE = cantools.database.load_string(swapcan.dbc_text(), "dbc")
 WATCHED = [(kind, field) for kind in MESSAGES for field in watched_fields(PROTOCOL, kind).values()]

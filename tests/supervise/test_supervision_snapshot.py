@@ -6,9 +6,10 @@ import tracemalloc
 from supervise.arrivals import frame, received, refused
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Received, Receiver
 from swapcan.messages import B2V_ST1, B2V_ST2
 from swapcan.supervise import Supervisor
+from swapcan.wire import Receiver
+from typedcan.wire.link import Received
 
 
 def test_a_snapshot_is_plain_data() -> None:

@@ -6,7 +6,6 @@ from cantools.database.can import Database
 from supervise.arrivals import DBC, received
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.message import PhysicalField, SignalState
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -16,6 +15,7 @@ from swapcan.messages import (
 )
 from swapcan.supervise import SignalChanged, SupervisionEvent, Supervisor
 from swapcan.supervise.signal_watch import judge_of
+from typedcan.wire.message import PhysicalField, SignalState
 
 
 def told(*frames: tuple[str, dict[str, int]], node: str = "VCU") -> list[list[str]]:

@@ -8,13 +8,13 @@ import pytest
 from transfer.wire import payloads
 
 from swapcan import SignalState
-from swapcan.errors import TransferError
 from swapcan.transfer import (
     CellVoltages,
     ProbeTemperatures,
     split_cell_voltages,
     split_probe_temperatures,
 )
+from typedcan.wire.errors import TransferError
 
 INVALID = SignalState.INVALID
 

@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from transfer.wire import ALPHABET, delivered
 
-from swapcan.message import Code5
 from swapcan.messages import B2V_ST2, V2B_VIN, B2V_SysCode1, Manufacturer
 from swapcan.transfer import (
     PackCode,
@@ -21,6 +20,7 @@ from swapcan.transfer import (
     split_pack_code,
     split_vin,
 )
+from typedcan.wire.message import Code5
 
 VIN = "1M8GDM9AXKP042788"
 OTHER = "5GZCZ43D13S812715"

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from transfer.wire import delivered
 
-from swapcan.message import Message
 from swapcan.transfer import PackCodeAssembler, Problem, VinAssembler, split_pack_code, split_vin
+from typedcan.wire.message import Message
 
 Assembler = VinAssembler | PackCodeAssembler
 Sent = tuple[float, str, int]

@@ -12,7 +12,6 @@ from transfer.wire import delivered, totals
 
 from swapcan import decode
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.message import Message
 from swapcan.transfer import (
     CellVoltages,
     PackCode,
@@ -25,6 +24,7 @@ from swapcan.transfer import (
     split_probe_temperatures,
     split_vin,
 )
+from typedcan.wire.message import Message
 
 CELLS = {1: [3.1, 3.2], 2: [3.3]}
 PROBES = {1: [20.0], 2: [21.0]}

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from swapcan import decode, encode
-from swapcan.message import Message
 from swapcan.messages import B2V_BattInfo2
 from swapcan.transfer import Reading
+from typedcan.wire.message import Message
 
 ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """Table 8 row 4 and table 15 row 2."""

@@ -26,9 +26,6 @@ def add(commands: Commands) -> None:
         "--from", dest="source", metavar="FILE", help="read this DBC or matrix, not the project"
     )
     generate.add_argument("--out", type=Path, help="with --from: the folder to write into")
-    generate.add_argument(
-        "--runtime", default="swapcan", help="package that the stubs of FILE import (%(default)s)"
-    )
     generate.add_argument("--encoding", help="of FILE, where it is not to be found out")
 
     text = "exit 1 and name each generated file that is not current"
@@ -45,7 +42,7 @@ def _generate(options: argparse.Namespace) -> int:
         protocol = open_side(options.source, encoding=options.encoding).protocol
         stem = Path(options.source.rsplit(":", 1)[-1]).stem
         name = re.sub(r"\W", "_", stem, flags=re.ASCII)
-        root, files = options.out, foreign_artifacts(protocol, name, options.runtime)
+        root, files = options.out, foreign_artifacts(protocol, name)
     else:
         project = load_sound_project(options)
         protocol, root = project.protocol, project.config.root

@@ -19,21 +19,18 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NO_FIELDS = {*keyword.kwlist, *dir(builtins), "to_raw", "enums", "messages"}
 
 
-def foreign_artifacts(
-    protocol: Protocol, out_name: str, *, runtime: str = "swapcan"
-) -> dict[str, bytes]:
+def foreign_artifacts(protocol: Protocol, out_name: str) -> dict[str, bytes]:
     """The DBC in the one shape that every reader takes, and a package of typed Python.
 
-    ``out_name`` names both, ``runtime`` is the package whose ``message`` module the stubs build
-    on; they can lie anywhere. Text beyond ASCII is UTF-8. Raises `ReadError` for a protocol that
-    neither can say, see `dbc_faults`.
+    ``out_name`` names both; they can lie anywhere. Text beyond ASCII is UTF-8. Raises `ReadError`
+    for a protocol that neither can say, see `dbc_faults`.
     """
     if not _NAME.fullmatch(out_name) or keyword.iskeyword(out_name):
         raise ReadError(f"{out_name}: is no name for a Python package")
     if faults := dbc_faults(protocol):
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         raise ReadError(f"{faults[0]}{more}")
-    stubs = emit_stubs(with_python_names(protocol), runtime, ".")
+    stubs = emit_stubs(with_python_names(protocol))
     return {
         f"{out_name}.dbc": emit_dbc(protocol).encode("utf-8"),
         **{f"{out_name}/{name}": text.encode("utf-8") for name, text in stubs.items()},

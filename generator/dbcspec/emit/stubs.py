@@ -34,19 +34,16 @@ TAKEN = {
 """What stands in the modules of the stubs already."""
 
 
-def emit_stubs(protocol: Protocol, runtime: str, package: str = "") -> dict[str, str]:
-    """Render the modules of a stub package, file name to text.
+RUNTIME = "typedcan.wire"
+"""The package that the stubs stand on; among themselves they import relatively."""
 
-    ``runtime`` is the package whose ``message`` module has the base classes, ``package`` that of
-    the stubs: ``runtime``'s own, or ``"."`` for modules that find each other wherever they are.
-    """
+
+def emit_stubs(protocol: Protocol) -> dict[str, str]:
+    """Render the modules of a stub package, file name to text; they load wherever they lie."""
     stubs = [(message, fields_of(message)) for message in protocol.messages]
-    package = package or f"{runtime}._generated"
     context = {
         "protocol": protocol,
-        "runtime": runtime,
-        "package": package,
-        "enums_module": f"{package.rstrip('.')}.enums",
+        "runtime": RUNTIME,
         "stubs": stubs,
         "imports": _imports(protocol, [field for _, fields in stubs for field in fields]),
         "code_tables": _code_tables(stubs),

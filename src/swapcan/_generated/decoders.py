@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from swapcan._generated import enums, messages
-from swapcan.message import Message, SignalState, code_table, draft_of
+from . import enums, messages
+from typedcan.wire.message import Message, SignalState, code_table, draft_of
 
 Decoder = Callable[[Sequence[int]], Message]
 """Raw values, in the order of the class's ``FIELDS``, to a message."""

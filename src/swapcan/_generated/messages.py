@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from swapcan._generated import enums
-from swapcan._generated.enums import (
+from . import enums
+from .enums import (
     AccessoryHvCommand,
     AccessoryRelayState,
     BalancingState,
@@ -44,7 +44,7 @@ from swapcan._generated.enums import (
     VinRequest,
     WarningLevel,
 )
-from swapcan.message import (
+from typedcan.wire.message import (
     ActingCodes,
     CharacterField,
     Checksum,

@@ -5,9 +5,9 @@ From spec ae1b41d069e617b3; change the spec, not this file.
 
 from __future__ import annotations
 
-from swapcan._generated import DIGEST, NAME, messages
-from swapcan._generated.decoders import DECODERS
-from swapcan.protocol import FieldRef, Protocol, Request, Transfer
+from . import DIGEST, NAME, messages
+from .decoders import DECODERS
+from typedcan.wire.protocol import FieldRef, Protocol, Request, Transfer
 
 PROTOCOL = Protocol(
     name=NAME,

@@ -8,7 +8,7 @@ from typing import Any
 import can
 
 from swapcan.console import CommandError
-from swapcan.errors import one_line
+from typedcan.wire.errors import one_line
 
 
 def add_bus_options(parser: argparse.ArgumentParser) -> None:

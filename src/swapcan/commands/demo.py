@@ -9,13 +9,13 @@ from contextlib import ExitStack
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Link, Received
 from swapcan.commands.traffic import Traffic
 from swapcan.console import Command, note, say, seconds
-from swapcan.database import database
-from swapcan.errors import ReceiveTimeoutError
 from swapcan.messages import B2V_ST1, MESSAGES
 from swapcan.simulate import PlannedStep, Simulation
+from swapcan.wire import Link, database
+from typedcan.wire.errors import ReceiveTimeoutError
+from typedcan.wire.link import Received
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Iterable
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.acting import acting_fields
-from swapcan.message import Field, Message
+from typedcan.wire.acting import acting_fields
+from typedcan.wire.message import Field, Message
 
 
 def add_consent(group: argparse._ActionsContainer, what: str) -> None:

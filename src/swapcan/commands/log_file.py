@@ -14,7 +14,7 @@ from can.io.blf import BLFParseError
 from can.io.generic import MessageReader
 
 from swapcan.console import CommandError
-from swapcan.errors import one_line
+from typedcan.wire.errors import one_line
 
 _DAMAGE = (
     BLFParseError,

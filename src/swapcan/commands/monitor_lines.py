@@ -40,7 +40,6 @@ import json
 from collections import Counter
 from typing import Any
 
-from swapcan.bus import Fault
 from swapcan.commands.transcript import json_object
 from swapcan.console import say
 from swapcan.monitor.picture import Picture
@@ -48,6 +47,7 @@ from swapcan.monitor.rows import MessageRow, Seen
 from swapcan.monitor.session import Session, SessionEvent, Status
 from swapcan.supervise import NotSeen, SignalChanged, StateChanged
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Vin
+from typedcan.wire.link import Fault
 
 _ITEMS = ("soc", "voltage_inside", "current", "hv_state", "fault_level")
 

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from swapcan.acting import what_acts
-from swapcan.bus import Link
-from swapcan.clock import SystemClock
-from swapcan.codec import decode, encode
 from swapcan.commands.bus_options import add_bus_options, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.transcript import values_text
@@ -15,6 +11,9 @@ from swapcan.commands.values import message_named, message_of
 from swapcan.console import Command, CommandError, note, say
 from swapcan.drive.driving import LOOK_OUT, Driving
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.wire import Link, decode, encode
+from typedcan.wire.acting import what_acts
+from typedcan.wire.clock import SystemClock
 
 _TIMEOUT = 1.0
 """Seconds for the bus to accept the frame."""

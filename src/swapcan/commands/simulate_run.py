@@ -9,7 +9,6 @@ from contextlib import ExitStack
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import SystemClock
 from swapcan.commands.driving import acting_nodes, what_they_send
 from swapcan.commands.simulation_report import SimulationReport
 from swapcan.console import CommandError, note
@@ -19,6 +18,7 @@ from swapcan.process_signals import Interrupts
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
+from typedcan.wire.clock import SystemClock
 
 
 def allowed_nodes(

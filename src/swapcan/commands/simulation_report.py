@@ -24,10 +24,7 @@ import json
 from functools import partial
 from typing import Any
 
-from swapcan.bus import Fault
 from swapcan.console import say
-from swapcan.errors import RequestError
-from swapcan.message import Message
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
 from swapcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
@@ -35,6 +32,9 @@ from swapcan.node.request import Pending
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
 from swapcan.supervise import NotSeen, SignalChanged, StateChanged
+from typedcan.wire.errors import RequestError
+from typedcan.wire.link import Fault
+from typedcan.wire.message import Message
 
 _PAUSE = 1.0
 """Seconds for which the same fault of frames of the same message is not said again."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from swapcan.bus import Received
 from swapcan.console import aligned
-from swapcan.message import CharacterField, Field, LabelledField, Message, SignalState
 from swapcan.messages import MESSAGES
+from typedcan.wire.link import Received
+from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState
 
 _SERIES = ("csc_no", "frame_no")
 """Fields that tell the frames of one cycle apart."""

@@ -27,10 +27,11 @@ from typing import Any
 
 import can
 
-from swapcan.bus import Fault, Received, Receiver
 from swapcan.console import say
-from swapcan.message import LabelledField, Message, SignalState
 from swapcan.messages import MESSAGES
+from swapcan.wire import Receiver
+from typedcan.wire.link import Fault, Received
+from typedcan.wire.message import LabelledField, Message, SignalState
 
 JSON_HELP = (
     "print one JSON object a line: timestamp, channel, id, message, and signals, states, faults,"

@@ -8,7 +8,8 @@ import re
 from collections.abc import Sequence
 
 from swapcan.console import CommandError
-from swapcan.message import (
+from swapcan.messages import MESSAGES
+from typedcan.wire.message import (
     CharacterField,
     Field,
     FilledField,
@@ -18,8 +19,7 @@ from swapcan.message import (
     SignalState,
     Value,
 )
-from swapcan.messages import MESSAGES
-from swapcan.plain import shown
+from typedcan.wire.plain import shown
 
 _STATES = {"invalid": SignalState.INVALID, "abnormal": SignalState.ABNORMAL}
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from swapcan.conform.series import Series
 from swapcan.logs.cells.cycles import CycleTable
 from swapcan.logs.frames import FrameBlock
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 
 class Chunk:

@@ -20,7 +20,6 @@ from swapcan.conform.measure.periods import PeriodMeter
 from swapcan.conform.registry import RULES
 from swapcan.conform.rule import Rule
 from swapcan.conform.series import Series
-from swapcan.errors import SwapcanError
 from swapcan.logs.cells.cycles import CellColumns, CycleTable
 from swapcan.logs.cells.readings import CELLS, PROBES
 from swapcan.logs.checks import checksums_right, has_checksum, rows_where
@@ -29,10 +28,11 @@ from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import protocol_of
-from swapcan.message import Message
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.message import Message
 
 
-class ConformError(SwapcanError, ValueError):
+class ConformError(TypedcanError, ValueError):
     """What is to be judged, or how, makes no sense."""
 
 

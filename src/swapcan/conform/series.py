@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from swapcan.conform.before import Before
 from swapcan.logs.columns import MessageColumns
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 
 class Series:

@@ -15,12 +15,8 @@ from functools import partial
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import Clock
-from swapcan.codec import Codec
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.drive.watchdog import Watchdog
-from swapcan.errors import DecodeError, SwapcanError, UnknownFrameError
-from swapcan.message import MessageT
 from swapcan.messages import (
     B2V_ST1,
     B2C_Charger,
@@ -34,6 +30,11 @@ from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
 from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.world import World
+from swapcan.wire import Codec
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.clock import Clock
+from typedcan.wire.errors import DecodeError, UnknownFrameError
+from typedcan.wire.message import MessageT
 
 LOOK_OUT = 2.0
 """Seconds in which nobody else may send what is to be sent: twice the longest period."""
@@ -54,7 +55,7 @@ _TROUBLE = 1.0
 """Seconds for which a bus may refuse to work before driving is given up."""
 
 
-class BusyBusError(SwapcanError):
+class BusyBusError(TypedcanError):
     """Somebody else sends a message that is to be sent here; ``frame`` is that of theirs."""
 
     def __init__(self, frame: can.Message) -> None:
@@ -122,7 +123,7 @@ class Driving:
             while (left := seconds - world.elapsed) > _MOMENT and not self._is_over():
                 world.run(min(left, _SLICE))
                 if self._watchdog.has_barked:
-                    raise SwapcanError("the program hung: what acts was ended, nothing goes on")
+                    raise TypedcanError("the program hung: what acts was ended, nothing goes on")
                 self._watchdog.beat()
                 self._watch(world.elapsed, seconds)
                 for bus in self._buses:

@@ -13,11 +13,11 @@ from copy import copy
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.acting import SentCommands, acting_fields
-from swapcan.clock import Clock, SystemClock
-from swapcan.codec import Codec
-from swapcan.errors import SwapcanError
-from swapcan.message import Message
+from swapcan.wire import Codec
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.acting import SentCommands, acting_fields
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.message import Message
 
 _BEHIND = 0.1
 """Seconds for which a frame waits for those that came before it and are read after it."""
@@ -128,7 +128,7 @@ class NotingBus(can.BusABC):
             return None
         try:
             return self._codec.decode(frame.arbitration_id, bytes(frame.data), verify=False)
-        except SwapcanError:
+        except TypedcanError:
             return None
 
     def _safe_frame(self, message: Message) -> can.Message:

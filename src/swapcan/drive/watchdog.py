@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Self
 
-from swapcan.clock import Clock, SystemClock
 from swapcan.drive.noting_bus import NotingBus
+from typedcan.wire.clock import Clock, SystemClock
 
 _PATIENCE = 2.0
 """Seconds without a beat after which the program counts as hanging."""

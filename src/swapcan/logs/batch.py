@@ -11,7 +11,6 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.arrow import (
     TIMESTAMP,
     MessageTable,
@@ -28,6 +27,7 @@ from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import Protocol, protocol_of
 from swapcan.logs.read import BLOCK_SIZE, Damage, open_log
 from swapcan.logs.selection import select
+from typedcan.model.errors import TypedcanError
 
 _FRAME_FIELDS: list[pa.Field[Any]] = [
     TIMESTAMP,
@@ -43,7 +43,7 @@ _NARROW, _WIDE = 8, 64
 _LAST_STANDARD = 0x7FF
 
 
-class BatchError(SwapcanError, ValueError):
+class BatchError(TypedcanError, ValueError):
     """A record batch does not hold frames."""
 
 
@@ -147,7 +147,7 @@ def frame_batches(path: Path | str, rows: int = BLOCK_SIZE) -> Iterator[pa.Recor
             raise DamagedLogError(log.damage)
 
 
-class DamagedLogError(SwapcanError):
+class DamagedLogError(TypedcanError):
     """A log is damaged; ``damage`` says where. All frames before were delivered."""
 
     def __init__(self, damage: Damage) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from swapcan.logs.columns import Column, DecodedBlock, MessageColumns
 from swapcan.logs.protocol import Protocol
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 PERIODS = 5
 """More than so many periods without a frame are a gap."""
@@ -41,7 +41,7 @@ class Faults:
     checksum
         Frames with a wrong checksum.
     counter
-        Frames with a wrong alive counter, as `swapcan.protect.ReceiveCounters` has it.
+        Frames with a wrong alive counter, as `typedcan.wire.protect.ReceiveCounters` has it.
     gaps
         Of messages that are sent periodically: more than `PERIODS` periods without a frame,
         between two frames or at the end of the log.

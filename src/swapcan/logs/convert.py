@@ -51,7 +51,7 @@ def convert_logs(
 
     Raises
     ------
-    SwapcanError
+    TypedcanError
         An option is wrong, a log cannot be opened, or the output cannot be written. A log that is
         damaged raises nothing: `Summary.damage` says so.
     OSError
@@ -81,7 +81,7 @@ def tables(*logs: Path | str, options: Options | None = None) -> dict[str, pa.Ta
 
     Raises
     ------
-    SwapcanError
+    TypedcanError
         An option is wrong, or a log cannot be opened. Of a damaged log the frames before the
         damage are there; `convert_logs` says what is lost.
     """

@@ -8,13 +8,13 @@ from enum import Enum
 
 from cantools.database.can import Message, Signal
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.columns import SignalInfo, State
 from swapcan.logs.lanes import lane_of
 from swapcan.logs.multiplexing import Multiplexing, multiplexing_of
 from swapcan.logs.scaling import Scaling, plain_conversion, raw_dtype, raw_range, scaling_of
 from swapcan.logs.stacks import ByteLoad, Part, Stack, stacks_of
 from swapcan.logs.wide import Wide
+from typedcan.model.errors import TypedcanError
 
 SHORT, LONG = 8, 64
 """Bytes of a payload row, of CAN and of CAN FD."""
@@ -37,11 +37,11 @@ class Mode(Enum):
     LABELS = "labels"
 
 
-class SelectionError(SwapcanError, LookupError):
+class SelectionError(TypedcanError, LookupError):
     """A message or signal that was asked for is not in the database."""
 
 
-class ReservedCodeError(SwapcanError, ValueError):
+class ReservedCodeError(TypedcanError, ValueError):
     """A reserved code is none that the signal can have."""
 
 

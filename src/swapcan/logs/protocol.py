@@ -11,14 +11,15 @@ import cantools
 from cantools.database.can import Database, Message
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.database import dbc_text
-from swapcan.errors import SwapcanError, one_line
 from swapcan.logs.plan import Reserved
 from swapcan.logs.reserved import reserved_codes
-from swapcan.message import Message as OwnMessage
+from swapcan.wire import dbc_text
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.errors import one_line
+from typedcan.wire.message import Message as OwnMessage
 
 
-class DbcError(SwapcanError):
+class DbcError(TypedcanError):
     """A DBC file cannot be read."""
 
 

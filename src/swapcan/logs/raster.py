@@ -13,12 +13,12 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.arrow import TIMESTAMP, MessageTable, metadata_of
 from swapcan.logs.checks import PERIODS, rows_where, taken
 from swapcan.logs.columns import Column, DecodedBlock, MessageColumns
 from swapcan.logs.protocol import Protocol
 from swapcan.logs.shapes import Batch, Shape
+from typedcan.model.errors import TypedcanError
 
 RASTER_TABLE = "raster"
 """Name of the table."""
@@ -36,7 +36,7 @@ _STEP = re.compile(r"\s*(\d+(?:\.\d+)?)\s*(us|ms|s|min)\s*")
 _UNITS = {"us": Fraction(1, 10**6), "ms": Fraction(1, 1000), "s": Fraction(1), "min": Fraction(60)}
 
 
-class RasterError(SwapcanError, ValueError):
+class RasterError(TypedcanError, ValueError):
     """A raster is none."""
 
 

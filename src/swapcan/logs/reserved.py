@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from swapcan.logs.columns import State
 from swapcan.logs.plan import Reserved
-from swapcan.message import SignalState
 from swapcan.messages import MESSAGES
+from typedcan.wire.message import SignalState
 
 _STATES = {SignalState.INVALID: State.INVALID, SignalState.ABNORMAL: State.ABNORMAL}
 

@@ -9,15 +9,15 @@ from datetime import datetime
 
 import numpy as np
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.frames import FrameBlock
 from swapcan.logs.read.blocks import rows_of
+from typedcan.model.errors import TypedcanError
 
 _RELATIVE = 1e8
 """Time stamps below, the spring of 1973, count from the begin of a recording."""
 
 
-class TimeError(SwapcanError, ValueError):
+class TimeError(TypedcanError, ValueError):
     """A time is none, or does not fit the log."""
 
 

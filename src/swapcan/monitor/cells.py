@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from swapcan.message import SignalState
 from swapcan.messages import B2V_BattInfo2, B2V_Ucell
 from swapcan.transfer import CellVoltages, Reading
+from typedcan.wire.message import SignalState
 
 _FRESH = 1.0
 """Seconds for which a voltage counts as received: ten periods."""

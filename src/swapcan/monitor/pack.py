@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
-from swapcan.message import LabelledField, Message, Value
 from swapcan.messages import (
     B2V_ST0,
     B2V_ST1,
@@ -19,7 +18,8 @@ from swapcan.messages import (
     B2V_BattInfo1,
 )
 from swapcan.monitor.rows import LATE, LOST, Seen, mark_of
-from swapcan.protocol import Protocol
+from typedcan.wire.message import LabelledField, Message, Value
+from typedcan.wire.protocol import Protocol
 
 
 @dataclass(frozen=True, slots=True)

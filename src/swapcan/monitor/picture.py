@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from swapcan.message import Message
 from swapcan.monitor.cells import CellMap
 from swapcan.monitor.pack import Pack
 from swapcan.monitor.rows import MessageRow, Seen, SignalRow, signal_rows
-from swapcan.protocol import Protocol
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 
 @dataclass(frozen=True, slots=True)

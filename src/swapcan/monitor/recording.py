@@ -12,7 +12,8 @@ import can
 from can.io.generic import MessageWriter
 from can.util import channel2int
 
-from swapcan.errors import SwapcanError, one_line
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.errors import one_line
 
 _LATEST = 2.0**32
 """Seconds since 1970 that every format can hold."""
@@ -21,7 +22,7 @@ _CHANNELS = 0xFFFE
 """The highest channel number that all formats can hold."""
 
 
-class RecordingError(SwapcanError):
+class RecordingError(TypedcanError):
     """A log file cannot be written: one line says which and why."""
 
 

@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any, NamedTuple
 
-from swapcan.bus import Received
-from swapcan.message import CharacterField, Field, LabelledField, Message, SignalState, Value
-from swapcan.protocol import Protocol
 from swapcan.supervise.events import SignalKind, State
 from swapcan.supervise.signal_watch import Judge, watched_fields
 from swapcan.supervise.snapshot import MessageSnapshot
+from typedcan.wire.link import Received
+from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState, Value
+from typedcan.wire.protocol import Protocol
 
 NEVER_SEEN = str(State.NEVER_SEEN)
 LATE = str(State.LATE)

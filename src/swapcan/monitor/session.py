@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 import can
 
-from swapcan.bus import Fault
-from swapcan.clock import Clock
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.recording import Recording, RecordingError
 from swapcan.monitor.watch import Watch, WatchEvent
 from swapcan.node.events import BusBack, BusLost
+from typedcan.wire.clock import Clock
+from typedcan.wire.link import Fault
 
 _EVENTS = 10_000
 """How many events are kept for a reader; the oldest go first."""

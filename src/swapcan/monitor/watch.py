@@ -7,19 +7,19 @@ from collections.abc import Iterator
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Fault, Received, Receiver
-from swapcan.codec import Codec
-from swapcan.message import Message
 from swapcan.messages import B2V_BattInfo2, B2V_Ucell
 from swapcan.monitor.bus_load import BITRATE, BusLoad
 from swapcan.monitor.cells import Cells
 from swapcan.monitor.pack import Alarm, Pack, is_alarm_level, sections
 from swapcan.monitor.picture import ForeignRow, Picture, Totals
 from swapcan.monitor.rows import Seen, message_row
-from swapcan.protocol import Protocol
 from swapcan.supervise import SupervisionEvent, Supervisor
 from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import CellVoltages, Outcome, PackCode, Transfers, Vin
+from swapcan.wire import Codec, Receiver
+from typedcan.wire.link import Fault, Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 WatchEvent = SupervisionEvent | Outcome
 """What a frame, or time alone, can bring about."""

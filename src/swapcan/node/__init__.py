@@ -1,6 +1,5 @@
 """Live nodes: `Node` sends, receives, supervises and asks; what it tells are its events."""
 
-from swapcan.errors import SendingError, StillActingError
 from swapcan.node.answers import BatteryInfo
 from swapcan.node.events import (
     BusBack,
@@ -13,6 +12,7 @@ from swapcan.node.events import (
 )
 from swapcan.node.node import Node
 from swapcan.node.request import Pending
+from typedcan.wire.errors import SendingError, StillActingError
 
 __all__ = [
     "BatteryInfo",

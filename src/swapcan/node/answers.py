@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
-from swapcan.message import Message
 from swapcan.messages import B2V_BattInfo1, B2V_BattInfo2
 from swapcan.transfer import Problem
+from typedcan.wire.message import Message
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)

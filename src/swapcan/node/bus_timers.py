@@ -5,7 +5,7 @@ from __future__ import annotations
 import can
 from can.broadcastmanager import CyclicSendTaskABC, ModifiableCyclicTaskABC
 
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 
 def has_timers(bus: can.BusABC) -> bool:

@@ -8,15 +8,15 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 
-from swapcan.acting import acting_fields
-from swapcan.clock import Clock
-from swapcan.errors import SendingError
-from swapcan.message import Message
 from swapcan.node.bus_timers import BusTimers, has_timers
 from swapcan.node.events import guarded
 from swapcan.node.port import Port
 from swapcan.node.schedule import Schedule
 from swapcan.node.transmit import Transmitter
+from typedcan.wire.acting import acting_fields
+from typedcan.wire.clock import Clock
+from typedcan.wire.errors import SendingError
+from typedcan.wire.message import Message
 
 Maker = Callable[[], Iterable[Message]]
 """Gives the frames of one cycle."""

@@ -13,12 +13,6 @@ from typing import Literal
 
 import can
 
-from swapcan.acting import acting_fields
-from swapcan.bus import Received
-from swapcan.clock import Clock
-from swapcan.codec import Codec
-from swapcan.errors import StillActingError, SwapcanError, one_line
-from swapcan.message import Message
 from swapcan.node.events import (
     BusBack,
     BusLost,
@@ -34,8 +28,15 @@ from swapcan.node.port import Port
 from swapcan.node.request import Requests
 from swapcan.node.transmit import Transmitter
 from swapcan.process_signals import LAST_WORDS
-from swapcan.protocol import Protocol, Request
 from swapcan.supervise import Supervisor
+from swapcan.wire import Codec
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.acting import acting_fields
+from typedcan.wire.clock import Clock
+from typedcan.wire.errors import StillActingError, one_line
+from typedcan.wire.link import Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol, Request
 
 Leave = Literal["safe", "silent"]
 """How a node is left: with the safe codes of what acts, or without a word."""
@@ -100,7 +101,7 @@ class Engine:
     def turn(self) -> None:
         """Take what has arrived, let time pass up to the clock's, and send what is due."""
         if self._threads:
-            raise SwapcanError(f"{self._name} has been started: its threads turn it")
+            raise TypedcanError(f"{self._name} has been started: its threads turn it")
         while frame := self._port.receive(0):
             self._take(frame, self._clock.now())
         self._check(self._clock.now())
@@ -110,7 +111,7 @@ class Engine:
     def start(self) -> None:
         """Begin to send and to receive, in two threads."""
         if self._threads:
-            raise SwapcanError(f"{self._name} has been started already")
+            raise TypedcanError(f"{self._name} has been started already")
         # A new one each time: a thread that stopped its node may not have ended yet.
         self._stopping = stopping = threading.Event()
         self._notices.clear()
@@ -253,7 +254,7 @@ class Engine:
         """Where a program ends without stopping its node."""
         try:
             self.stop()
-        except SwapcanError:
+        except TypedcanError:
             _LOG.exception("%s was not left safe", self._name)
 
     def _say(self, message: Message) -> None:

@@ -10,10 +10,10 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 from typing import Any
 
-from swapcan.bus import Fault, Received
-from swapcan.message import Message
 from swapcan.supervise import SupervisionEvent
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
+from typedcan.wire.link import Fault, Received
+from typedcan.wire.message import Message
 
 _LOG = logging.getLogger("swapcan")
 

@@ -7,15 +7,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import can
 
-from swapcan.bus import Counts, Received, Receiver
-from swapcan.codec import Codec
-from swapcan.message import Message
 from swapcan.node.events import Dispatcher
-from swapcan.protocol import Protocol
 from swapcan.supervise import Supervisor
 from swapcan.supervise.events import State
 from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import Transfers
+from swapcan.wire import Codec, Receiver
+from typedcan.wire.link import Counts, Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 Hearer = Callable[[Received, float], object]
 """Takes a message and the second at which it came."""

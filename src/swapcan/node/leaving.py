@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
-from swapcan.errors import StillActingError, one_line
 from swapcan.node.transmit import Transmitter
+from typedcan.wire.errors import StillActingError, one_line
 
 _TIMES = 5
 """How often the safe codes are sent: one frame can get lost."""

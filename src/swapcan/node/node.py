@@ -10,21 +10,21 @@ from typing import Any, Self, TypeVar, overload
 
 import can
 
-from swapcan.bus import Counts, Received
-from swapcan.clock import Clock, SystemClock
-from swapcan.codec import Codec
-from swapcan.errors import RequestError, StillActingError
-from swapcan.message import Message
 from swapcan.messages import V2B_VIN, B2V_BattInfo1, B2V_SysCode1
 from swapcan.node.answers import BatteryInfo, BatteryInfoCollector, Collector, TransferCollector
 from swapcan.node.cycles import Maker
 from swapcan.node.engine import Engine, Leave
 from swapcan.node.events import Event
 from swapcan.node.request import Pending
-from swapcan.protocol import Protocol
 from swapcan.supervise import State, Supervisor
 from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import PackCode, PackCodeAssembler, Vin, VinAssembler
+from swapcan.wire import Codec
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.errors import RequestError, StillActingError
+from typedcan.wire.link import Counts, Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _LOG = logging.getLogger("swapcan")
 

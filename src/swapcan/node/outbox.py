@@ -8,13 +8,13 @@ import math
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 
-from swapcan.clock import Clock
-from swapcan.errors import SendingError
-from swapcan.message import Message
 from swapcan.node.cycles import Cycles, Maker, Source, frames_of
 from swapcan.node.port import Port
 from swapcan.node.transmit import Transmitter
-from swapcan.protocol import Protocol
+from typedcan.wire.clock import Clock
+from typedcan.wire.errors import SendingError
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _ANSWER_GAP = 0.005
 """Seconds between the frames of an answer that is sent once."""

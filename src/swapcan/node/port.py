@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 import can
 
-from swapcan.clock import Clock
-from swapcan.errors import one_line
 from swapcan.node.events import BusBack, BusLost
+from typedcan.wire.clock import Clock
+from typedcan.wire.errors import one_line
 
 _FIRST_RETRY = 0.05
 _LAST_RETRY = 2.0

@@ -11,10 +11,10 @@ from concurrent.futures import Future, InvalidStateError
 from contextlib import suppress
 from typing import Any, Generic, TypeVar
 
-from swapcan.errors import RequestError, RequestTimeoutError
-from swapcan.message import Message
 from swapcan.node.answers import Collector
-from swapcan.protocol import Protocol, Request
+from typedcan.wire.errors import RequestError, RequestTimeoutError
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol, Request
 
 T = TypeVar("T")
 

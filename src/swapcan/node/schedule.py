@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _SPREAD = 0.1
 """Seconds over which the first transmissions are spread, unless a period is shorter."""

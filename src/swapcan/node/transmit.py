@@ -7,14 +7,14 @@ from collections.abc import Callable
 
 import can
 
-from swapcan.acting import SentCommands
-from swapcan.clock import Clock
-from swapcan.codec import Codec
-from swapcan.errors import one_line
-from swapcan.message import Message
 from swapcan.node.events import SendFailed
 from swapcan.node.port import Port
-from swapcan.protect import SendCounters
+from swapcan.wire import Codec
+from typedcan.wire.acting import SentCommands
+from typedcan.wire.clock import Clock
+from typedcan.wire.errors import one_line
+from typedcan.wire.message import Message
+from typedcan.wire.protect import SendCounters
 
 _AT_MOST = 0.5
 """Seconds to wait for a transmission of another thread before the safe codes are sent beside it."""

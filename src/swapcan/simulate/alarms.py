@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from swapcan.message import SignalState
 from swapcan.messages import B2V_ST0, B2V_ST1
 from swapcan.simulate.relays import Relay
 from swapcan.simulate.sensors import Measurement
 from swapcan.transfer import Reading
+from typedcan.wire.message import SignalState
 
 HIGHEST_LEVEL = 3
 

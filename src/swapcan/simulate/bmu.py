@@ -10,9 +10,6 @@ from typing import ClassVar
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Received
-from swapcan.clock import Clock, SystemClock
-from swapcan.message import Message, SignalState
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST0,
@@ -60,6 +57,9 @@ from swapcan.simulate.sensors import (
 from swapcan.simulate.status import PackStatus, battery_info
 from swapcan.supervise import State
 from swapcan.transfer import Vin, split_pack_code
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.link import Received
+from typedcan.wire.message import Message, SignalState
 
 PACK_CODE = "001PB280SWAPR1EA10000025"
 """The 24 characters of GB/T 34014 of the simulated pack."""

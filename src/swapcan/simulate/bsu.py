@@ -8,10 +8,10 @@ from typing import ClassVar
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import Clock, SystemClock
 from swapcan.messages import BSU_BMS_0, ConnectorState, LockState, WarningLevel
 from swapcan.node import Node
 from swapcan.simulate.participant import Participant
+from typedcan.wire.clock import Clock, SystemClock
 
 _AMBIENT = 31.0
 _HOT = 100.0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from swapcan.message import SignalState
 from swapcan.messages import (
     C2B_ACStatus,
     ChargeControl,
@@ -15,6 +14,7 @@ from swapcan.messages import (
 )
 from swapcan.simulate.charge_path import ChargePath
 from swapcan.simulate.sensors import FULL_CELL, Measurement
+from typedcan.wire.message import SignalState
 
 _MATCHED = 0.05  # share by which the charger's voltage may differ from the battery's
 _FULL = 100.0  # percent

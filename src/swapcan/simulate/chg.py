@@ -9,9 +9,6 @@ from typing import ClassVar
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Received
-from swapcan.clock import Clock, SystemClock
-from swapcan.message import SignalState
 from swapcan.messages import (
     B2C_Charger,
     C2B_ACStatus,
@@ -23,6 +20,9 @@ from swapcan.messages import (
 from swapcan.node import Node
 from swapcan.simulate.participant import Participant
 from swapcan.supervise import NotSeen, State, StateChanged
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.link import Received
+from typedcan.wire.message import SignalState
 
 _SELF_TEST = 0.5
 """Seconds from being connected to the first report."""

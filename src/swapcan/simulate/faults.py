@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.message import Message
 from swapcan.simulate.times import PlanError, timed
+from typedcan.wire.message import Message
 
 
 @dataclass(frozen=True, slots=True)

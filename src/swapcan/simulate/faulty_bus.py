@@ -12,13 +12,13 @@ from typing import Any
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import Clock, SystemClock
-from swapcan.database import database
-from swapcan.message import Message
-from swapcan.protect import STANDARD_ALGORITHMS, Algorithm, sealed
-from swapcan.protocol import Protocol
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from swapcan.simulate.times import PlanError
+from swapcan.wire import database
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.message import Message
+from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
+from typedcan.wire.protocol import Protocol
 
 _EVERY = 4
 """One frame in so many is lost, late, or has a wrong checksum."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from swapcan.errors import SwapcanError
 from swapcan.node import Node
 from swapcan.simulate.line import Line
+from typedcan.model.errors import TypedcanError
 
 
-class UnknownFaultError(SwapcanError, LookupError):
+class UnknownFaultError(TypedcanError, LookupError):
     """There is no fault of that name."""
 
 

@@ -6,7 +6,6 @@ import random
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from swapcan.message import SignalState
 from swapcan.simulate.battery import Battery
 from swapcan.simulate.curves import (
     CHARGE_BY_SOC,
@@ -16,6 +15,7 @@ from swapcan.simulate.curves import (
     interpolate,
 )
 from swapcan.transfer import Reading
+from typedcan.wire.message import SignalState
 
 FULL_CELL = 3.6
 """V that charging brings no cell above."""

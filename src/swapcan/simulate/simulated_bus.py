@@ -7,7 +7,7 @@ from queue import Empty, SimpleQueue
 
 import can
 
-from swapcan.clock import Clock
+from typedcan.wire.clock import Clock
 
 
 class SimulatedWire:

@@ -11,7 +11,6 @@ from typing import Self
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import Clock, SimulatedClock, SystemClock
 from swapcan.simulate.battery import Battery
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.bsu import Bsu
@@ -24,6 +23,7 @@ from swapcan.simulate.times import PlanError
 from swapcan.simulate.tms import Tms
 from swapcan.simulate.vcu import VIN, Vcu
 from swapcan.simulate.world import World
+from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 
 _MASK = 0x1FFF_FFFF
 _NOBODYS = 0

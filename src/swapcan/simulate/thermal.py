@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from swapcan.message import SignalState
 from swapcan.messages import ThermalMode
 from swapcan.simulate.sensors import Measurement
+from typedcan.wire.message import SignalState
 
 _COOL_FROM, _COOL_TO = 32.0, 28.0  # degC of the warmest probe
 _HEAT_FROM, _HEAT_TO = 5.0, 10.0  # degC of the coldest one

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from swapcan.errors import SwapcanError
+from typedcan.model.errors import TypedcanError
 
 _UNITS = {"": 1.0, "s": 1.0, "ms": 0.001, "min": 60.0, "h": 3600.0}
 
 
-class PlanError(SwapcanError, ValueError):
+class PlanError(TypedcanError, ValueError):
     """Something planned does not exist, or not there, or not at such a time."""
 
 

@@ -8,9 +8,6 @@ from typing import ClassVar
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Received
-from swapcan.clock import Clock, SystemClock
-from swapcan.message import Code2, SignalState
 from swapcan.messages import (
     BMS_TMS_0,
     TMS_BMS_0,
@@ -22,6 +19,9 @@ from swapcan.messages import (
 from swapcan.node import Node
 from swapcan.simulate.participant import Participant
 from swapcan.supervise import State, StateChanged
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.link import Received
+from typedcan.wire.message import Code2, SignalState
 
 _AMBIENT = 25.0
 """degC of the water that is neither cooled nor heated."""

@@ -9,9 +9,6 @@ from enum import Enum
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.bus import Received
-from swapcan.clock import Clock, SystemClock
-from swapcan.message import SignalState
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST0,
@@ -38,6 +35,9 @@ from swapcan.simulate.driving import Motion, Power, Profile, Trip, shuttle
 from swapcan.simulate.participant import Participant
 from swapcan.supervise import State, StateChanged
 from swapcan.transfer import PackCode, split_vin
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.link import Received
+from typedcan.wire.message import SignalState
 
 VIN = "LDEMTRCK0R0000025"
 """Of the simulated truck."""

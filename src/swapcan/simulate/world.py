@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Self
 
-from swapcan.clock import Clock, SimulatedClock, SystemClock
 from swapcan.simulate.line import Line
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
+from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 
 STEP = 0.01
 """Seconds from one step of the participants to the next."""

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Literal, NamedTuple
 
-from swapcan.database import Entry, database
-from swapcan.message import Message
-from swapcan.protocol import Protocol, Transfer
+from swapcan.wire import database
+from typedcan.wire.database import Entry
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol, Transfer
 
 ByteOrder = Literal["big", "little"]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
 
-from swapcan.message import Message, Value
+from typedcan.wire.message import Message, Value
 
 SignalKind = Literal["invalid", "abnormal", "out of range", "unknown code", "alarm"]
 """In which way a signal says that something is wrong."""

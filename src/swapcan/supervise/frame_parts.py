@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from swapcan.bus import Received
-from swapcan.message import Message
-from swapcan.protocol import Protocol, Transfer
 from swapcan.supervise.bit_places import ByteOrder
 from swapcan.supervise.events import SignalChanged, SignalKind
 from swapcan.supervise.periods import Periods
 from swapcan.supervise.signal_watch import Signals, Watch, WatchedField
 from swapcan.supervise.snapshot import SignalSnapshot
+from typedcan.wire.link import Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol, Transfer
 
 MOST_PARTS = 1024
 """How many different frames of one message are kept apart; a pack needs some 100."""

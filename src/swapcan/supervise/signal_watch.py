@@ -6,8 +6,12 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from swapcan.bus import Received
-from swapcan.message import (
+from swapcan.supervise.bit_places import ByteOrder, bit_places
+from swapcan.supervise.events import SignalChanged, SignalKind
+from swapcan.supervise.right_codes import right_codes
+from swapcan.supervise.snapshot import SignalSnapshot
+from typedcan.wire.link import Received
+from typedcan.wire.message import (
     CharacterField,
     Field,
     FilledField,
@@ -16,11 +20,7 @@ from swapcan.message import (
     SignalState,
     Value,
 )
-from swapcan.protocol import Protocol, Transfer
-from swapcan.supervise.bit_places import ByteOrder, bit_places
-from swapcan.supervise.events import SignalChanged, SignalKind
-from swapcan.supervise.right_codes import right_codes
-from swapcan.supervise.snapshot import SignalSnapshot
+from typedcan.wire.protocol import Protocol, Transfer
 
 Judge = Callable[[Value], SignalKind | None]
 """What is wrong with the value of a signal, if anything."""

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from swapcan.message import SignalState, Value
 from swapcan.supervise.events import SignalKind, State
 from swapcan.supervise.periods import PeriodStats
+from typedcan.wire.message import SignalState, Value
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,16 +10,16 @@ import math
 from collections.abc import Iterable, Mapping
 from operator import itemgetter
 
-from swapcan.bus import Fault, Received
-from swapcan.errors import UnknownMessageError
-from swapcan.message import Message
-from swapcan.protocol import Protocol
 from swapcan.supervise.events import (
     State,
     SupervisionEvent,
 )
 from swapcan.supervise.snapshot import Snapshot
 from swapcan.supervise.tracked_message import TrackedMessage
+from typedcan.wire.errors import UnknownMessageError
+from typedcan.wire.link import Fault, Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _NOTHING: tuple[SupervisionEvent, ...] = ()
 

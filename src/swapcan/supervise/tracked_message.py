@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import math
 
-from swapcan.bus import Fault, Received
-from swapcan.message import Message
-from swapcan.protocol import Protocol
 from swapcan.supervise.bit_places import byte_order, numbering
 from swapcan.supervise.events import (
     NotSeen,
@@ -19,6 +16,9 @@ from swapcan.supervise.frame_parts import Parts, frames_of, time_between
 from swapcan.supervise.periods import Periods
 from swapcan.supervise.signal_watch import Signals, Watch, watched_fields
 from swapcan.supervise.snapshot import MessageSnapshot
+from typedcan.wire.link import Fault, Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _FAULTS = ("length", "checksum", "counter repeated", "counter skipped", "counter invalid")
 _NOTHING: tuple[SupervisionEvent, ...] = ()

@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from swapcan.message import Message
-from swapcan.protocol import Protocol, Transfer
 from swapcan.transfer.problem import Problem
 from swapcan.transfer.reading_assembly import CellAssembler, ProbeAssembler
 from swapcan.transfer.readings import (
@@ -18,6 +16,8 @@ from swapcan.transfer.readings import (
 )
 from swapcan.transfer.text import PACK_CODE, VIN, PackCode, Vin
 from swapcan.transfer.text_assembly import PackCodeAssembler, VinAssembler
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol, Transfer
 
 Assembler = VinAssembler | PackCodeAssembler | CellAssembler | ProbeAssembler
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from swapcan.message import Message, MessageT
-from swapcan.protocol import Transfer
+from typedcan.wire.message import Message, MessageT
+from typedcan.wire.protocol import Transfer
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from operator import attrgetter
 from typing import Any, Generic, TypeVar
 
-from swapcan.message import Message, SignalState
-from swapcan.protocol import FieldRef, Transfer
 from swapcan.transfer.problem import Kind, Problem
 from swapcan.transfer.readings import (
     CELL_VOLTAGES,
@@ -19,6 +17,8 @@ from swapcan.transfer.readings import (
     Readings,
 )
 from swapcan.transfer.shape import Shape, Totals
+from typedcan.wire.message import Message, SignalState
+from typedcan.wire.protocol import FieldRef, Transfer
 
 ReadingsT = TypeVar("ReadingsT", bound=Readings)
 

@@ -7,11 +7,11 @@ from types import MappingProxyType
 from typing import Any
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.errors import EncodeError, TransferError
-from swapcan.message import Field, MessageT, SignalState
 from swapcan.messages import B2V_Temp, B2V_Ucell
-from swapcan.protocol import FieldRef, Transfer
 from swapcan.transfer.layout import create
+from typedcan.wire.errors import EncodeError, TransferError
+from typedcan.wire.message import Field, MessageT, SignalState
+from typedcan.wire.protocol import FieldRef, Transfer
 
 Reading = float | SignalState
 """A measured value, or what the signal says instead."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.errors import TransferError
 from swapcan.messages import (
     V2B_VIN,
     B2V_SysCode1,
@@ -15,9 +14,10 @@ from swapcan.messages import (
     B2V_SysCode4,
     Manufacturer,
 )
-from swapcan.protocol import Transfer
 from swapcan.transfer.layout import characters, create, text_slots
 from swapcan.transfer.vin import vin_problem
+from typedcan.wire.errors import TransferError
+from typedcan.wire.protocol import Transfer
 
 VIN = PROTOCOL.transfer("vin")
 PACK_CODE = PROTOCOL.transfer("pack_code")

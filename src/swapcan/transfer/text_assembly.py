@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from operator import attrgetter
 from typing import Any, Generic, TypeVar
 
-from swapcan.message import Message
-from swapcan.protocol import Transfer
 from swapcan.transfer.layout import characters, frame_number, text_slots
 from swapcan.transfer.problem import Kind, Problem
 from swapcan.transfer.text import MANUFACTURER, PACK_CODE, VIN, PackCode, Vin
 from swapcan.transfer.vin import vin_problem
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Transfer
 
 ResultT = TypeVar("ResultT")
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.live.scenario import Scenario
 from swapcan.drive.driving import LEAVING, LOOK_OUT
-from swapcan.message import Message
 from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.plan import PlannedStep
+from typedcan.wire.message import Message
 
 _AT_FIRST: Mapping[str, str] = {
     "VCU": (

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from swapcan.conform.rule import Rule
 from swapcan.conform.text import Text
-from swapcan.errors import SwapcanError
 from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.plan import PlannedStep
+from typedcan.model.errors import TypedcanError
 
 
-class ScenarioError(SwapcanError):
+class ScenarioError(TypedcanError):
     """A scenario that there is not, or that cannot be played here."""
 
 

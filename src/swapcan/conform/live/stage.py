@@ -8,7 +8,6 @@ from functools import partial
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.clock import Clock, SystemClock
 from swapcan.conform.live.scenario import Scenario, ScenarioError
 from swapcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
 from swapcan.drive.noting_bus import NotingBus
@@ -16,6 +15,7 @@ from swapcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulated_bus import SimulatedWire
 from swapcan.simulate.simulation import Simulation
+from typedcan.wire.clock import Clock, SystemClock
 
 __all__ = ["LEAVING", "LOOK_OUT", "Left", "Stage"]
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.message import Message
-from swapcan.protocol import Request
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Request
 
 REQUESTS: Mapping[type[Message], Request] = {
     message: request for request in PROTOCOL.requests for message in request.answers

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.series import Series, latest
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _PERIODS = 3.5  # two frames in a row may be lost
 

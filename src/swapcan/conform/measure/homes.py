@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.logs.frames import FrameBlock, FrameFlag
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _KIND = np.uint8(FrameFlag.EXTENDED | FrameFlag.FD | FrameFlag.REMOTE | FrameFlag.ERROR)
 

@@ -14,7 +14,7 @@ from swapcan.conform.measure.beside import fresh
 from swapcan.conform.rule import Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _ROUNDING = 1e-6  # s, of time stamps and what is made of them
 

@@ -12,7 +12,7 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.measure.spread import Spread
 from swapcan.conform.measure.steps import StepMeter, Steps
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 COLUMNS = 600
 """Spans that a log is cut into for a plot."""

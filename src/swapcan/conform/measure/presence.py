@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 SILENT = 5.0
 """A node is silent after so many of the shortest period of what it sends."""

@@ -21,7 +21,7 @@ from swapcan.conform.measure.asked import Asked
 from swapcan.conform.measure.presence import Presence, Presences, Silence, Start
 from swapcan.conform.measure.spread import Spread, spread_of
 from swapcan.conform.series import Series
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _REQUEST_ENDS = 3.0
 """Periods after which a message that is sent on request is taken to be requested anew."""

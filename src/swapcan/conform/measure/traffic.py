@@ -13,8 +13,8 @@ from swapcan.conform.chunk import Chunk
 from swapcan.conform.measure.presence import PERIODS
 from swapcan.conform.measure.steps import KEYED, key_of
 from swapcan.conform.series import Series
-from swapcan.message import Message
-from swapcan.protocol import Transfer
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Transfer
 
 Channel = int | str | None
 

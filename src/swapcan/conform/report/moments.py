@@ -24,7 +24,7 @@ from swapcan.logs.plan import Mode
 from swapcan.logs.protocol import protocol_of
 from swapcan.logs.read import open_log
 from swapcan.logs.read.blocks import rows_of
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _LONGEST = 30.0
 """Seconds of an occurrence that are shown; what lasts longer is cut."""

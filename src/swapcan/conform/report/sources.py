@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Subject
 from swapcan.conform.measure.steps import KEYED
-from swapcan.message import Field, LabelledField, Message
+from typedcan.wire.message import Field, LabelledField, Message
 
 _MOST = 6
 """Messages that are shown of a node."""

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.columns import Column, MessageColumns, State
-from swapcan.message import Message
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
+from typedcan.model.errors import TypedcanError
+from typedcan.wire.message import Message
 
 
-class CellsError(SwapcanError, ValueError):
+class CellsError(TypedcanError, ValueError):
     """What was decoded is not what cells and probes are made of."""
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.plot.html import notes
 from swapcan.logs.plot.model import GAP_PERIODS, Band, Curve, Heat, Mark, Plot, Spans
+from typedcan.model.errors import TypedcanError
 
 _WIDTH, _DPI = 12.0, 150
 _CURVE_HEIGHT, _BAND_HEIGHT, _HEAT_HEIGHT = 1.8, 0.32, 2.6
@@ -27,7 +27,7 @@ _LABEL_SHARE = 0.007
 """Share of the width that a letter of a label takes."""
 
 
-class PictureError(SwapcanError):
+class PictureError(TypedcanError):
     """The package is missing that draws pictures."""
 
 

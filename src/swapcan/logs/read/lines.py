@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.errors import one_line
 from swapcan.logs.read.gunzip import GZIP, BrokenGzip, gunzip
+from typedcan.wire.errors import one_line
 
 PADDING = 1024
 """Bytes that may be read beyond the end of any line."""

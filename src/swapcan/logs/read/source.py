@@ -8,14 +8,14 @@ from pathlib import Path
 from types import TracebackType
 from typing import Protocol, Self
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.frames import FrameBlock
+from typedcan.model.errors import TypedcanError
 
 BLOCK_SIZE = 65_536
 """Frames in a block, unless the caller wants another number."""
 
 
-class LogError(SwapcanError):
+class LogError(TypedcanError):
     """A log cannot be opened: there is none, or nothing here reads such a file."""
 
 

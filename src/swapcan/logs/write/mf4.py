@@ -12,8 +12,8 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.arrow import STATES
+from typedcan.model.errors import TypedcanError
 
 _SHORT = 8
 """Bits."""
@@ -22,7 +22,7 @@ _DIGITS, _NAME = 160, 32
 """Bytes of a number beyond 64 bits, as digits (512 bits have 155), and of a channel's name."""
 
 
-class Mf4Error(SwapcanError):
+class Mf4Error(TypedcanError):
     """An MF4 file cannot be written: asammdf is missing."""
 
 

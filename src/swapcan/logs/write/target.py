@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pyarrow as pa
 
-from swapcan.errors import SwapcanError
 from swapcan.logs.write.arrow import ArrowFile
 from swapcan.logs.write.csv import CsvFile
 from swapcan.logs.write.mf4 import Mf4File
 from swapcan.logs.write.parquet import ParquetFile
 from swapcan.logs.write.sink import Files, OpenTable, Sink
+from typedcan.model.errors import TypedcanError
 
 _TABLES: dict[str, OpenTable] = {
     ".parquet": ParquetFile,
@@ -28,7 +28,7 @@ _MF4 = ".mf4"
 _DEFAULT = ".parquet"
 
 
-class OutputError(SwapcanError):
+class OutputError(TypedcanError):
     """The output cannot be written there."""
 
 

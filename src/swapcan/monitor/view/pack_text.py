@@ -7,12 +7,12 @@ from itertools import zip_longest
 
 from rich.text import Text
 
-from swapcan.message import SignalState
 from swapcan.monitor.cells import Cell, CellMap
 from swapcan.monitor.pack import Item, Pack, Section
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.view.styles import ALERT, age, mark_text
 from swapcan.transfer import Reading
+from typedcan.wire.message import SignalState
 
 _BLOCK = 33
 """Characters of one block and the gap after it."""

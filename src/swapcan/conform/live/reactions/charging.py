@@ -8,7 +8,7 @@ from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl, ChargerFault
-from swapcan.protocol import FieldRef
+from typedcan.wire.protocol import FieldRef
 
 _CONTROL = FieldRef(B2C_Charger, "charge_control")
 _HARDWARE = FieldRef(C2B_ACStatus, "charger_hardware")

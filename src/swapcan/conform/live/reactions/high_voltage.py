@@ -16,7 +16,7 @@ from swapcan.messages import (
     HvCommand,
     HvOffRequest,
 )
-from swapcan.protocol import FieldRef
+from typedcan.wire.protocol import FieldRef
 
 COMMAND = FieldRef(V2B_CMD, "hv_on_off")
 STATE = FieldRef(B2V_ST1, "bms")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Watcher
-from swapcan.protocol import FieldRef
+from typedcan.wire.protocol import FieldRef
 
 PACK = "BMU"
 """The node whose reactions these are."""

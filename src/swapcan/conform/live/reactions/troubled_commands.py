@@ -13,7 +13,7 @@ from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, HvCommand
-from swapcan.protocol import FieldRef
+from typedcan.wire.protocol import FieldRef
 
 _COUNTER = FieldRef(V2B_CMD, "aliv")
 _PACK_LEVEL = Subject(PACK, B2V_ST1.NAME, B2V_ST1.FIELDS["fault_levl"].dbc_name)

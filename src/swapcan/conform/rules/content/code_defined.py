@@ -10,7 +10,6 @@ from swapcan.conform.findings import Said
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.content.codes import Codes, judge_codes, senders, wrong_codes
 from swapcan.conform.text import Text
-from swapcan.message import Field, LabelledField
 from swapcan.messages import (
     B2V_ST4,
     B2V_ST5,
@@ -20,6 +19,7 @@ from swapcan.messages import (
     B2V_Temp,
     B2V_Ucell,
 )
+from typedcan.wire.message import Field, LabelledField
 
 _OPEN = {(B2V_SysCode1, "manufacturer"), (B2V_SysCode1, "sys_code_length")}
 """Table 8 row 2 names five manufacturers of many; row 3 labels one number of 32."""

@@ -8,8 +8,8 @@ from swapcan.conform.findings import Said
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.content.codes import Codes, judge_codes, senders, wrong_codes
 from swapcan.conform.text import Text
-from swapcan.message import Field
 from swapcan.messages import B2V_ST1
+from typedcan.wire.message import Field
 
 _ONLY_CODE = {(B2V_ST1, "chg_mode")}
 """Table 1 row 12 has no other code for a pack that is not charging."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.series import Series
-from swapcan.message import Field, Message
+from typedcan.wire.message import Field, Message
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,8 @@ from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.logs.checks import PERIODS
-from swapcan.message import Field, FilledField, Message, SignalState
 from swapcan.messages import B2V_ST0, V2B_CMD, B2V_Temp, B2V_Ucell
+from typedcan.wire.message import Field, FilledField, Message, SignalState
 
 SECONDS = Tolerance(
     name="invalid-lasting.seconds",

@@ -11,7 +11,7 @@ from swapcan.conform.findings import Said
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.content.codes import Codes, judge_codes, senders, wrong_codes
 from swapcan.conform.text import Text
-from swapcan.message import Field, NumberField, PhysicalField
+from typedcan.wire.message import Field, NumberField, PhysicalField
 
 _OUTSIDE = Text(
     "{value:.10g} {unit} (code {code}) is outside {low:.10g} to {high:.10g} {unit}",

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.text import Text
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 ALL_BITS = (1 << 64) - 1
 

@@ -11,7 +11,7 @@ from swapcan.conform.rules.frames.identifiers import is_foreign, meant, written
 from swapcan.conform.rules.frames.left_over import EXTENDED, left_over
 from swapcan.conform.rules.frames.sightings import Sightings
 from swapcan.conform.text import Text
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _FOREIGN = Text("frames that the protocol does not have: {frames}", "非本协议报文,共 {frames} 帧")
 _AND_MORE = Text(

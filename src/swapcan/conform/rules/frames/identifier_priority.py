@@ -14,7 +14,7 @@ from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.odd import judge_odd
 from swapcan.conform.text import Text
 from swapcan.logs.frames import FrameBlock
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _REST = (1 << PRIORITY_SHIFT) - 1
 _BY_REST = {message.FRAME_ID & _REST: message for message in PROTOCOL.messages}

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.rules.frames.left_over import EXTENDED, KEYS
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 ADDRESS_BITS = 8
 """The lowest bits of an identifier: the source address."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.logs.frames import FrameBlock, FrameFlag
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 EXTENDED = 1 << 31
 """Set in a key beside the identifier where that has 29 bits."""

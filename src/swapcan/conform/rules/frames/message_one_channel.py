@@ -13,7 +13,7 @@ from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.sightings import Sighting
 from swapcan.conform.text import Text
 from swapcan.logs.frames import FrameFlag
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _OTHER_KINDS = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
 

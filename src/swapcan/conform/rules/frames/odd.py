@@ -14,7 +14,7 @@ from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.series import Series
 from swapcan.logs.columns import MessageColumns
 from swapcan.logs.frames import FrameBlock
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 Describe = Callable[[type[Message], FrameBlock, int], Said]
 """What is wrong with one row of a block."""

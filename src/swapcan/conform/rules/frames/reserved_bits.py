@@ -7,7 +7,6 @@ from swapcan.conform.chunk import Chunk
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.frames.bits import judge_zeros
 from swapcan.conform.text import Text
-from swapcan.message import Message
 from swapcan.messages import (
     B2V_RQ,
     BSU_BMS_0,
@@ -16,6 +15,7 @@ from swapcan.messages import (
     B2V_BattInfo1,
     C2B_ACStatus,
 )
+from typedcan.wire.message import Message
 
 RESERVED: dict[type[Message], tuple[tuple[int, int], ...]] = {
     V2B_CMD: ((54, 63),),

@@ -10,7 +10,7 @@ from swapcan.conform.rules.frames.identifiers import has_other_address, meant, w
 from swapcan.conform.rules.frames.left_over import EXTENDED, left_over
 from swapcan.conform.rules.frames.sightings import Sighting, Sightings
 from swapcan.conform.text import Text
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _ADDRESS = Text(
     "source address 0x{address:02X}; with this priority, PF and PS the standard has {printed}",

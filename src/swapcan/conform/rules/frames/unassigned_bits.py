@@ -12,7 +12,7 @@ from swapcan.conform.rules.frames.bits import ALL_BITS, judge_zeros
 from swapcan.conform.rules.frames.reserved_bits import MASKS
 from swapcan.conform.text import Text
 from swapcan.logs.protocol import protocol_of
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _SET = Text("bits that no signal has are 1: {bits}", "未分配给信号的位为 1:第 {bits} 位")
 

@@ -16,8 +16,8 @@ from swapcan.conform.chunk import Chunk
 from swapcan.conform.rules.pack.surroundings import Surrounded, Surroundings, rows_of
 from swapcan.conform.series import Series
 from swapcan.logs.protocol import protocol_of
-from swapcan.message import Message
 from swapcan.messages import B2V_ST0, B2V_ST1
+from typedcan.wire.message import Message
 
 Words = NDArray[np.uint64]
 """The bytes of frames, or some bits of them, the first byte lowest."""

@@ -15,8 +15,8 @@ from swapcan.conform.rules.pack.silences import Silences
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.message import Message
 from swapcan.messages import B2V_ST1, B2V_BattInfo2
+from typedcan.wire.message import Message
 
 _KEYS = 1 << 16
 """CSCs and frame numbers in one."""

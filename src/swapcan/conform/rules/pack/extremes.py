@@ -17,8 +17,8 @@ from swapcan.conform.rules.pack.runs import ROUNDING, Runs
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.logs.cells.readings import CELLS, PROBES, Readings
-from swapcan.message import Message
 from swapcan.messages import B2V_ST4, B2V_ST5, B2V_ST6
+from typedcan.wire.message import Message
 
 
 @dataclass(frozen=True, slots=True)

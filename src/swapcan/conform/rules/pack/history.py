@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _KEPT = 512
 """Frames: cycles that have waited for the pack's totals come two seconds late."""

@@ -13,7 +13,7 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.logs.checks import has_checksum
-from swapcan.protect import STANDARD_ALGORITHMS, expected_checksum
+from typedcan.wire.protect import STANDARD_ALGORITHMS, expected_checksum
 
 _PROTECTED = tuple(message for message in PROTOCOL.messages if has_checksum(message))
 

@@ -10,7 +10,7 @@ from swapcan.conform.findings import Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.message import Counter
+from typedcan.wire.message import Counter
 
 _LIMITED = tuple(
     (message, counter)

@@ -15,7 +15,7 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.logs.checks import PERIODS
-from swapcan.message import Counter, Message
+from typedcan.wire.message import Counter, Message
 
 _COUNTING = tuple(
     (message, counter) for message in PROTOCOL.messages if (counter := message.COUNTER)

@@ -13,8 +13,8 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.requests.spells import Spell, Spells, first_after
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.message import Message
-from swapcan.protocol import Request
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Request
 
 _SECONDS = Tolerance(
     name="answer-in-time.seconds",

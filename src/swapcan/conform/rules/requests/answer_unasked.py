@@ -15,8 +15,8 @@ from swapcan.conform.rules.requests.spells import Moment, Spell, Spells
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.message import Message
-from swapcan.protocol import Request
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Request
 
 _SECONDS = Tolerance(
     name="answer-unasked.seconds",

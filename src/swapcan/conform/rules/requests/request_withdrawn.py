@@ -9,7 +9,7 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.requests.spells import Moment, Spell, Spells
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.protocol import Request
+from typedcan.wire.protocol import Request
 
 _SECONDS = Tolerance(
     name="request-withdrawn.seconds",

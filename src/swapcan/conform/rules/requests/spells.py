@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.series import Series
-from swapcan.message import Message
-from swapcan.protocol import Request
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Request
 
 
 class Moment(NamedTuple):

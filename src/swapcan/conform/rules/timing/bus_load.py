@@ -13,7 +13,7 @@ from swapcan.conform.measure.traffic import Channel, Traffic
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _SHARE = Tolerance(
     name="bus-load.share",

@@ -14,7 +14,7 @@ from swapcan.conform.measure.asked import REQUESTS
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _EVENTS = tuple(message for message in PROTOCOL.messages if not message.PERIOD)
 

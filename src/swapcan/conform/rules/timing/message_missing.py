@@ -12,7 +12,7 @@ from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 _PERIODS = Tolerance(
     name="message-missing.periods",

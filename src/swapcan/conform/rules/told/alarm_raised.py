@@ -12,8 +12,8 @@ from swapcan.conform.measure.lasting import Lasting, LastingWatcher
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.message import Message
 from swapcan.messages import B2V_ST0, B2V_ST1
+from typedcan.wire.message import Message
 
 _ALARMS: tuple[tuple[type[Message], str], ...] = tuple(
     (message, field)

@@ -14,7 +14,7 @@ from swapcan.conform.rules.transfers.turn_watch import TurnWatcher
 from swapcan.conform.rules.transfers.turns import Kind
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.protocol import Transfer
+from typedcan.wire.protocol import Transfer
 
 MISSING_OR_DOUBLED: Mapping[Kind, Text] = {
     Kind.MISSING: Text(

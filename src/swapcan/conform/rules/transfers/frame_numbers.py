@@ -11,7 +11,7 @@ from swapcan.conform.findings import Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series, latest
 from swapcan.conform.text import Text
-from swapcan.protocol import FieldRef
+from typedcan.wire.protocol import FieldRef
 
 _PARTS = tuple(
     (transfer.messages[0], transfer.group.field, transfer.frame_number.field, transfer.groups_field)

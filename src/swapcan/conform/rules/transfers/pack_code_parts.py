@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.series import Series, latest
-from swapcan.message import Message
 from swapcan.transfer.layout import text_slots
 from swapcan.transfer.text import PACK_CODE
+from typedcan.wire.message import Message
 
 ROOM = len(PACK_CODE.items)
 """How many characters the frames can carry."""

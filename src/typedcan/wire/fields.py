@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from enum import Enum, IntEnum
 from typing import Any
 
-from swapcan.errors import EncodeError
-from swapcan.plain import character, integer, real_number, shown, whole_number
+from typedcan.wire.errors import EncodeError
+from typedcan.wire.plain import character, integer, real_number, shown, whole_number
 
 
 class SignalState(Enum):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swapcan.message import Field, Message
+from typedcan.wire.message import Field, Message
 
 _KNOWN: dict[type[Message], tuple[Field, ...]] = {}  # looked up for every frame that is sent
 

@@ -8,14 +8,13 @@ from types import MappingProxyType
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.acting import safe_codes
-from swapcan.database import Database, database
-from swapcan.errors import UnknownFrameError
-from swapcan.message import Message
-from swapcan.protect import STANDARD_ALGORITHMS, Algorithm, sealed
-from swapcan.protocol import Protocol
-from swapcan.reader import Reader
+from typedcan.wire.acting import safe_codes
+from typedcan.wire.database import Database, database
+from typedcan.wire.errors import UnknownFrameError
+from typedcan.wire.message import Message
+from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
+from typedcan.wire.protocol import Protocol
+from typedcan.wire.reader import Reader
 
 
 class Codec:
@@ -32,7 +31,7 @@ class Codec:
     """
 
     def __init__(
-        self, algorithms: Mapping[str, Algorithm] | None = None, protocol: Protocol = PROTOCOL
+        self, protocol: Protocol, algorithms: Mapping[str, Algorithm] | None = None
     ) -> None:
         self._algorithms = MappingProxyType({**STANDARD_ALGORITHMS, **(algorithms or {})})
         self._protocol = protocol
@@ -108,16 +107,3 @@ def _not_a_data_frame(frame: can.Message) -> str | None:
     if not frame.is_extended_id:
         return "has an 11-bit identifier, the protocol has 29-bit ones"
     return None
-
-
-_DEFAULT = Codec()
-
-
-def encode(message: Message, *, counter: int | None = None) -> bytes:
-    """As `Codec.encode`, with the algorithms that the standard states."""
-    return _DEFAULT.encode(message, counter=counter)
-
-
-def decode(frame_id: int, data: bytes, *, verify: bool = True) -> Message:
-    """As `Codec.decode`, with the algorithms that the standard states."""
-    return _DEFAULT.decode(frame_id, data, verify=verify)

@@ -8,11 +8,11 @@ from typing import Literal
 
 import can
 
-from swapcan.codec import Codec
-from swapcan.errors import ChecksumError, LengthError
-from swapcan.message import Message
-from swapcan.protect import CounterFault, ReceiveCounters
-from swapcan.reader import Reader
+from typedcan.wire.codec import Codec
+from typedcan.wire.errors import ChecksumError, LengthError
+from typedcan.wire.message import Message
+from typedcan.wire.protect import CounterFault, ReceiveCounters
+from typedcan.wire.reader import Reader
 
 FaultKind = Literal["length", "checksum", "counter"]
 
@@ -127,8 +127,8 @@ class Counts:
 class Receiver:
     """Decodes the frames of one bus in their order, checks and counts them; needs no bus itself."""
 
-    def __init__(self, codec: Codec | None = None) -> None:
-        self._readers = (codec or Codec()).readers
+    def __init__(self, codec: Codec) -> None:
+        self._readers = codec.readers
         self._counters = ReceiveCounters()
         self._received = 0
         self._counts: Counter[str] = Counter()

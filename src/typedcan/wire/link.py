@@ -14,11 +14,11 @@ from concurrent.futures import Future, ThreadPoolExecutor
 
 import can
 
-from swapcan.codec import Codec
-from swapcan.errors import ReceiveTimeoutError
-from swapcan.message import Message
-from swapcan.protect import SendCounters
-from swapcan.receiver import Counts, Fault, FaultKind, Received, Receiver
+from typedcan.wire.codec import Codec
+from typedcan.wire.errors import ReceiveTimeoutError
+from typedcan.wire.message import Message
+from typedcan.wire.protect import SendCounters
+from typedcan.wire.receiver import Counts, Fault, FaultKind, Received, Receiver
 
 __all__ = ["Counts", "Fault", "FaultKind", "Link", "Received", "Receiver"]
 
@@ -48,12 +48,12 @@ class Link:
     def __init__(
         self,
         bus: can.BusABC,
+        codec: Codec,
         *,
-        codec: Codec | None = None,
         on_fault: Callable[[Fault], None] | None = None,
     ) -> None:
         self._bus = bus
-        self._codec = codec or Codec()
+        self._codec = codec
         self._on_fault = on_fault
         self._sent = SendCounters()
         self._receiver = Receiver(self._codec)

@@ -1,15 +1,13 @@
-"""The errors of swapcan: each carries the facts as fields, and one line a person can act on."""
+"""The errors of the runtime: each carries the facts as fields, and one line a person can act on."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-
-class SwapcanError(Exception):
-    """Base of all errors that this package raises on purpose."""
+from typedcan.model.errors import TypedcanError
 
 
-class EncodeError(SwapcanError, ValueError):
+class EncodeError(TypedcanError, ValueError):
     """A value cannot be sent: ``message`` and ``field`` name it, ``value`` is what was given."""
 
     def __init__(self, message: str, field: str, value: object, problem: str) -> None:
@@ -20,7 +18,7 @@ class EncodeError(SwapcanError, ValueError):
         super().__init__(f"{message}.{field}: {problem}")
 
 
-class DecodeError(SwapcanError, ValueError):
+class DecodeError(TypedcanError, ValueError):
     """A frame cannot be decoded: ``frame_id`` and ``data`` are the frame's."""
 
     def __init__(self, frame_id: int, data: bytes, problem: str) -> None:
@@ -53,7 +51,7 @@ class ChecksumError(DecodeError):
         super().__init__(frame_id, data, problem)
 
 
-class UnknownFrameError(SwapcanError, LookupError):
+class UnknownFrameError(TypedcanError, LookupError):
     """A frame is none of the protocol's messages; ``frame_id`` and ``reason`` say which and why."""
 
     def __init__(self, frame_id: int, reason: str) -> None:
@@ -62,15 +60,15 @@ class UnknownFrameError(SwapcanError, LookupError):
         super().__init__(f"frame 0x{frame_id:X}: {reason}")
 
 
-class UnknownMessageError(SwapcanError, LookupError):
+class UnknownMessageError(TypedcanError, LookupError):
     """There is no message of that name."""
 
 
-class UnknownNodeError(SwapcanError, LookupError):
+class UnknownNodeError(TypedcanError, LookupError):
     """There is no node of that name."""
 
 
-class ReceiveTimeoutError(SwapcanError, TimeoutError):
+class ReceiveTimeoutError(TypedcanError, TimeoutError):
     """No message of the protocol arrived in ``timeout`` seconds."""
 
     def __init__(self, timeout: float) -> None:
@@ -78,15 +76,15 @@ class ReceiveTimeoutError(SwapcanError, TimeoutError):
         super().__init__(f"no message within {timeout:g} s")
 
 
-class DatabaseError(SwapcanError):
+class DatabaseError(TypedcanError):
     """The DBC and the generated code of this package do not belong together."""
 
 
-class SendingError(SwapcanError, ValueError):
+class SendingError(TypedcanError, ValueError):
     """A message that a node may not send, or cannot send in the way it was asked to."""
 
 
-class StillActingError(SwapcanError):
+class StillActingError(TypedcanError):
     """What was commanded could not be ended: ``messages`` are those that act, ``cause`` says why.
 
     Whoever receives them goes on until its own timeout.
@@ -102,7 +100,7 @@ class StillActingError(SwapcanError):
         )
 
 
-class RequestError(SwapcanError):
+class RequestError(TypedcanError):
     """A request cannot be made: this node has no signal for it, or it is already under way."""
 
 
@@ -116,7 +114,7 @@ class RequestTimeoutError(RequestError, TimeoutError):
         super().__init__(f"{request}: not answered within {timeout:g} s; {missing}")
 
 
-class TransferError(SwapcanError, ValueError):
+class TransferError(TypedcanError, ValueError):
     """A value cannot be split into frames: ``transfer`` names it, ``problem`` says why."""
 
     def __init__(self, transfer: str, problem: str) -> None:

@@ -8,8 +8,8 @@ from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
 
-from swapcan.codes import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
-from swapcan.fields import (
+from typedcan.wire.codes import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
+from typedcan.wire.fields import (
     ActingCodes,
     CharacterField,
     Field,

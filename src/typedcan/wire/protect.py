@@ -8,7 +8,7 @@ from operator import xor
 from types import MappingProxyType
 from typing import Literal, NamedTuple
 
-from swapcan.message import Message
+from typedcan.wire.message import Message
 
 Algorithm = Callable[[bytes], int]
 """Bytes to a checksum of one byte."""

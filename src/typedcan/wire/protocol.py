@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from swapcan.errors import UnknownMessageError, UnknownNodeError
-from swapcan.message import Message
+from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
+from typedcan.wire.message import Message
 
 
 class FieldRef(NamedTuple):

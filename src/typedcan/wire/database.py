@@ -10,11 +10,10 @@ from importlib import resources
 import cantools
 from cantools.database.can import Database as CantoolsDatabase
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.errors import DatabaseError
-from swapcan.message import Message
-from swapcan.packing import Packer
-from swapcan.protocol import Protocol
+from typedcan.wire.errors import DatabaseError
+from typedcan.wire.message import Message
+from typedcan.wire.packing import Packer
+from typedcan.wire.protocol import Protocol
 
 Decoder = Callable[[Sequence[int]], Message]
 """Raw values, in the order of the class's ``FIELDS``, to a message."""
@@ -41,23 +40,18 @@ class Database:
     by_frame_id: Mapping[int, Entry]
 
 
-def dbc_text(protocol: Protocol = PROTOCOL) -> str:
+def dbc_text(protocol: Protocol) -> str:
     """The text of the DBC that a protocol's package was built with."""
     return resources.files(protocol.package).joinpath(_dbc_name(protocol)).read_text("ascii")
 
 
-def message_type(name: str) -> type[Message]:
-    """The message class of that name; raises `UnknownMessageError`."""
-    return PROTOCOL.message(name)
-
-
 @cache
-def database(protocol: Protocol = PROTOCOL) -> Database:
+def database(protocol: Protocol) -> Database:
     """Read the packaged DBC; raises `DatabaseError` where it does not fit the generated code."""
     return match(dbc_text(protocol), protocol)
 
 
-def match(text: str, protocol: Protocol = PROTOCOL) -> Database:
+def match(text: str, protocol: Protocol) -> Database:
     """Pair a DBC text with the generated classes; raises `DatabaseError` where they differ."""
     dbc = cantools.database.load_string(text, "dbc")
     if not isinstance(dbc, CantoolsDatabase):

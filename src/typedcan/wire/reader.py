@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swapcan.database import Entry
-from swapcan.errors import ChecksumError, LengthError
-from swapcan.message import Message
-from swapcan.protect import Algorithm
+from typedcan.wire.database import Entry
+from typedcan.wire.errors import ChecksumError, LengthError
+from typedcan.wire.message import Message
+from typedcan.wire.protect import Algorithm
 
 _KEPT = 256
 """How many messages are kept: as many as a counter of a byte has values."""

@@ -1,0 +1,81 @@
+"""Typed messages of this standard: what `typedcan.wire` has, with its protocol set."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import can
+
+from swapcan._generated.protocol import PROTOCOL
+from typedcan.wire import codec, link, receiver
+from typedcan.wire import database as databases
+from typedcan.wire.message import Message
+from typedcan.wire.protect import Algorithm
+from typedcan.wire.protocol import Protocol
+
+
+class Codec(codec.Codec):
+    """Encodes and decodes the messages of the standard.
+
+    Parameters
+    ----------
+    algorithms
+        Checksum algorithms by name, for those that the standard leaves open: a function from the
+        covered bytes to one byte, for example ``{"BMS_CRC": my_crc}``. Without one that checksum
+        is sent as 0 and not verified.
+    protocol
+        Another protocol whose package `dbcspec generate` wrote.
+    """
+
+    def __init__(
+        self, algorithms: Mapping[str, Algorithm] | None = None, protocol: Protocol = PROTOCOL
+    ) -> None:
+        super().__init__(protocol, algorithms)
+
+
+class Link(link.Link):
+    """One node's typed messages of the standard; see `typedcan.wire.link.Link`."""
+
+    def __init__(
+        self,
+        bus: can.BusABC,
+        *,
+        codec: codec.Codec | None = None,
+        on_fault: Callable[[receiver.Fault], None] | None = None,
+    ) -> None:
+        super().__init__(bus, codec or _CODEC, on_fault=on_fault)
+
+
+class Receiver(receiver.Receiver):
+    """Decodes the frames of one bus, checks and counts them."""
+
+    def __init__(self, codec: codec.Codec | None = None) -> None:
+        super().__init__(codec or _CODEC)
+
+
+_CODEC = Codec()
+
+
+def encode(message: Message, *, counter: int | None = None) -> bytes:
+    """As `Codec.encode`, with the algorithms that the standard states."""
+    return _CODEC.encode(message, counter=counter)
+
+
+def decode(frame_id: int, data: bytes, *, verify: bool = True) -> Message:
+    """As `Codec.decode`, with the algorithms that the standard states."""
+    return _CODEC.decode(frame_id, data, verify=verify)
+
+
+def dbc_text() -> str:
+    """The text of the DBC of the standard."""
+    return databases.dbc_text(PROTOCOL)
+
+
+def message_type(name: str) -> type[Message]:
+    """The message class of that name; raises `UnknownMessageError`."""
+    return PROTOCOL.message(name)
+
+
+def database(protocol: Protocol = PROTOCOL) -> databases.Database:
+    """What packs and decodes each message."""
+    return databases.database(protocol)

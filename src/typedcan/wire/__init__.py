@@ -1,0 +1,1 @@
+"""Typed messages on a bus of python-can: the thin runtime."""
