@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import shutil
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 
 from dbcspec.compare.run import compare
 from dbcspec.config import Config
+from dbcspec.model import Aspect, Protocol
 from dbcspec.project import load
 from dbcspec.report.item import Item
 from typedcan.model.protocol import Protocol
@@ -101,6 +103,24 @@ def test_a_start_value_that_does_not_follow_from_what_acts_is_told_as_well(tmp_p
     fixed = ("name: LAMP, length: 4, start: 12", "name: LAMP, length: 4, start: 12, initial: 3")
     items = findings(tmp_path, ("requests:", ACTS), fixed)
     assert {item.rule for item in items} == {"signal-acts-same", "signal-start-value-same"}
+
+
+@pytest.mark.parametrize(
+    ("edit", "silent"),
+    [
+        (("requests:", ACTS), Aspect.ACTS),
+        (("1: On, 15: Signal Invalid", "1: Signal Invalid, 15: On"), Aspect.PROTECTION),
+    ],
+)
+def test_a_start_value_is_told_where_one_side_does_not_say_what_it_follows_from(
+    edit: tuple[str, str], silent: Aspect, tmp_path: Path
+) -> None:
+    old, new = protocol(tmp_path / "old"), protocol(tmp_path / "new", edit)
+    told = {item.rule for item in compare(old, new)}
+    assert "signal-start-value-same" not in told
+    old = dataclasses.replace(old, carries=frozenset(Aspect) - {silent})
+    for items in (compare(old, new), compare(new, old)):
+        assert "signal-start-value-same" in {item.rule for item in items}
 
 
 def test_a_new_name_of_a_node_that_nothing_tells_of_is_another_node(tmp_path: Path) -> None:

@@ -92,39 +92,50 @@ def test_a_field_says_what_acts_and_what_it_states_if_it_is_not_given(
     assert sum("Says that something is on: On; safe is Off" in text for text in texts) == 1
 
 
-@pytest.mark.parametrize("wide", [False, True], ids=["small codes", "large codes"])
-def test_the_formatter_changes_nothing_however_many_codes_act(
-    *, wide: bool, tmp_path: Path
-) -> None:
-    first = 100_000 if wide else 1
-    many = tuple(
+def many_acting() -> Protocol:
+    """A signal for each number of codes and each length of the last one, so of lines as well."""
+    acts = [
+        ActingCodes(codes=(*range(1, count), 10**digits), safe=0, reports=reports)
+        for count in range(1, 26)
+        for digits in range(2, 7)
+        for reports in (False, True)
+    ]
+    messages = tuple(
         Message(
-            name=f"M{count}_{reports}",
-            frame_id=2 * count + reports,
+            name=f"M{number}",
+            frame_id=number,
             length=8,
             sender="ECU",
-            signals=(
-                signal(
-                    "Many",
-                    0,
-                    32,
-                    acting=ActingCodes(
-                        codes=tuple(range(first, first + count)), safe=0, reports=reports
-                    ),
-                ),
-            ),
+            signals=(signal("Many", 0, 32, acting=each),),
         )
-        for count in range(1, 40)
-        for reports in (False, True)
+        for number, each in enumerate(acts)
     )
-    for name, data in foreign_artifacts(Protocol(name="many", messages=many), "many").items():
+    return Protocol(name="many", messages=messages)
+
+
+def test_any_number_of_codes_is_written_as_the_formatter_wants_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    protocol = many_acting()
+    for name, data in foreign_artifacts(protocol, "manyacts").items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_bytes(data)
     command = ("ruff", "format", "--check", "--isolated", "--line-length=100", "--no-cache")
     done = subprocess.run(
-        [sys.executable, "-m", *command, str(tmp_path / "many")], capture_output=True, check=False
+        [sys.executable, "-m", *command, str(tmp_path / "manyacts")],
+        capture_output=True,
+        check=False,
     )
     assert done.returncode == 0, done.stdout
+    monkeypatch.syspath_prepend(str(tmp_path))
+    kinds = importlib.import_module("manyacts.messages").MESSAGES
+    for name in [name for name in sys.modules if name.split(".")[0] == "manyacts"]:
+        del sys.modules[name]
+    for kind, (_, each) in zip(kinds, protocol.signals(), strict=True):
+        known = kind.FIELDS["many"].acting
+        assert each.acting
+        assert known.codes == frozenset(each.acting.codes)
+        assert (known.safe, known.reports) == (0, each.acting.reports)
 
 
 def test_a_start_value_that_acts_gets_into_no_file_and_no_default() -> None:

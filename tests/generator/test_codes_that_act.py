@@ -120,6 +120,25 @@ def test_every_other_field_may_be_left_out() -> None:
     assert required == {(kind.NAME, name) for kind in MESSAGES for name in needed_by(kind)}
 
 
+@pytest.mark.parametrize(
+    ("message", "text"),
+    [
+        ("B2V_ST0", "Fields that are not given say: Normal (23 fields)."),
+        ("B2V_ST1", "say: HV open, Open, No Balancing, Not connected, Reserved,"),
+        ("B2C_Charger", "Table 18 (5.3). Must be given: charge_control."),
+        ("C2B_ACStatus", "say: OK (3 fields), Normal (2 fields). Must be given: charger_start."),
+    ],
+)
+def test_the_text_of_a_class_says_what_is_stated_where_nothing_is_given(
+    message: str, text: str
+) -> None:
+    assert text in " ".join((message_type(message).__doc__ or "").split())
+
+
+def test_the_text_of_a_class_of_which_all_is_invalid_says_nothing_of_it() -> None:
+    assert "not given" not in (message_type("V2B_CMD").__doc__ or "")
+
+
 @over_the_files
 def test_every_signal_of_a_file_has_a_start_value_and_none_acts(name: str, root: Path) -> None:
     starts = {
