@@ -67,6 +67,36 @@ def test_of_what_is_long_the_error_shows_a_part(value: object, text: str | None)
     assert text is None or problem == text
 
 
+class Mute:
+    """It has no text."""
+
+    def __repr__(self) -> str:
+        raise ZeroDivisionError
+
+
+class Line(str):
+    """Its text is its own affair."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return f"{self}\n\x1b[2J"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (Mute(), "a Mute"),
+        (Fraction(10**5000, 3), "a Fraction"),
+        (Line("up"), "up\\n\\x1b[2J"),
+        (Line(100 * "x"), f"{57 * 'x'}..."),
+    ],
+    ids=["raises", "too_long_for_python", "control_characters", "long"],
+)
+def test_what_has_no_proper_text_gets_one(value: object, text: str) -> None:
+    assert refusal(status(value)) == f"expected a number, 0 to 102 %, not {text}"
+
+
 LONG: list[Callable[[], object]] = [
     lambda: "x" * 10**6,
     lambda: "\x1b[2J\r\n\u202e电\ud800",

@@ -20,7 +20,7 @@ _LARGEST_SHOWN = 10**40
 _MOST_DIGITS = 100
 """No signal holds a number of more; the int of a Decimal such as 1E+999999999 fills the memory."""
 
-
+_LONG_ONES = (str, list, tuple, dict, set, frozenset)
 _REPR = reprlib.Repr()
 _REPR.maxlevel = 2
 _REPR.maxstring = _REPR.maxother = _LONGEST_TEXT
@@ -40,7 +40,7 @@ def _text(value: object) -> str:
     if isinstance(value, int) and abs(value) >= _LARGEST_SHOWN:
         # Python refuses to write out over 4300 digits, and nobody would read them.
         return f"a number of about {int(value.bit_length() * math.log10(2))} digits"
-    return _REPR.repr(value)
+    return _REPR.repr(value) if type(value) in _LONG_ONES else repr(value)
 
 
 def _cut(text: str) -> str:
