@@ -11,7 +11,7 @@ import pytest
 
 from dbcspec.compare.run import compare
 from dbcspec.config import Config
-from dbcspec.model import Aspect, Protocol
+from typedcan.model.protocol import Aspect, Protocol
 from dbcspec.project import load
 from dbcspec.report.item import Item
 from typedcan.model.protocol import Protocol
