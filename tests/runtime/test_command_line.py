@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -29,7 +28,6 @@ def test_help_has_examples_and_is_printed_to_stdout(
     assert cli.run([*words, "--help"]) == 0
     out, errors = capsys.readouterr()
     assert errors == ""
-    assert out.startswith("usage: swapcan")
     examples = out.partition("examples:\n")[2]
     assert f"  swapcan {' '.join(words)}".rstrip() in examples
 
@@ -46,20 +44,20 @@ def test_without_a_command_there_is_help_and_exit_status_2(
     assert cli.run([]) == 2
     out, errors = capsys.readouterr()
     assert out == ""
-    assert errors.startswith("usage: swapcan")
+    assert "swapcan demo  " in errors
 
 
 @pytest.mark.parametrize(
     ("words", "text"),
     [
-        (["dance"], "argument COMMAND: invalid choice: 'dance' (choose from "),
-        (["--loud"], "unrecognized arguments: --loud"),
-        (["decode"], "the following arguments are required: LOGFILE; see swapcan decode --help"),
+        (["dance"], "'dance'"),
+        (["--loud"], "--loud"),
+        (["decode"], "LOGFILE; see swapcan decode --help"),
         (["demo", "--seconds", "0"], "expected a positive number of seconds, not '0'"),
         (["demo", "--seconds", "nan"], "expected a positive number of seconds, not 'nan'"),
         (["listen", "--seconds", "soon"], "expected a positive number of seconds, not 'soon'"),
         (["listen", "--count", "0"], "expected a positive whole number, not '0'"),
-        (["--print-completion", "cmd"], "invalid choice: 'cmd'"),
+        (["--print-completion", "cmd"], "'cmd'"),
     ],
 )
 def test_a_wrong_argument_is_one_line(
@@ -191,7 +189,6 @@ def test_a_terminal_gets_the_same_text_as_a_pipe(
 
 
 @pytest.mark.skipif(NO_TERMINALS, reason="no pseudo-terminals")
-@pytest.mark.skipif(signal.getsignal(signal.SIGINT) is signal.SIG_IGN, reason="SIGINT is ignored")
 @pytest.mark.parametrize("words", [["listen", "-i", "virtual"], ["demo", "--seconds", "60"]])
 def test_ctrl_c_typed_in_a_terminal_leaves_no_traceback(
     words: list[str], environment: dict[str, str]
