@@ -12,7 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 import can
 
 from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
-from swapcan.console import CommandError, Parser, finish, note, say
+from swapcan.console import CommandError, Parser, finish, note, say_text
 from swapcan.errors import SwapcanError, one_line
 
 _COMMANDS = (
@@ -115,5 +115,5 @@ def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
         import shtab
     except ModuleNotFoundError:
         raise CommandError("completion needs shtab: pip install 'swapcan[completion]'") from None
-    say(shtab.complete(parser, shell))
+    say_text(shtab.complete(parser, shell))
     return 0

@@ -11,12 +11,13 @@ from typing import TypeVar
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.simulation_report import SimulationReport
-from swapcan.console import Command, aligned, note, say, seconds
+from swapcan.console import Command, note, say, seconds
 from swapcan.simulate.faults import FAULTS, able_nodes, planned_fault
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation, check
 from swapcan.simulate.times import PlanError
+from typedcan.shell.printing import aligned
 
 T = TypeVar("T")
 

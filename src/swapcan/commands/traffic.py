@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from swapcan.bus import Received
-from swapcan.console import aligned
 from swapcan.message import CharacterField, Field, LabelledField, Message, SignalState
 from swapcan.messages import MESSAGES
+from typedcan.shell.printing import aligned
 
 _SERIES = ("csc_no", "frame_no")
 """Fields that tell the frames of one cycle apart."""

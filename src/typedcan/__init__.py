@@ -1,0 +1,1 @@
+"""The runtime for any CAN protocol: it names no message, signal or node of one."""
