@@ -16,6 +16,7 @@ from swapcan.errors import SwapcanError, one_line
 from swapcan.logs.plan import Reserved
 from swapcan.logs.reserved import reserved_codes
 from swapcan.message import Message as OwnMessage
+from typedcan.shell.printing import printable
 
 
 class DbcError(SwapcanError):
@@ -73,9 +74,8 @@ def protocol_of(dbc: Path | None = None) -> Protocol:
     digest = _digest(database)
     if digest == PROTOCOL.digest:
         return _own(database)
-    return Protocol(
-        dbc.stem, digest, database.messages, {}, {}, _periods(database), frozenset(), {}
-    )
+    name = printable(dbc.stem)  # a file's name may hold bytes that are no text
+    return Protocol(name, digest, database.messages, {}, {}, _periods(database), frozenset(), {})
 
 
 def _load(text: str, where: str) -> Database:
