@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from uuid import uuid4
@@ -17,6 +18,10 @@ from typedcan.model.protocol import Protocol
 
 # Many tests run commands as processes of their own: let those keep their bytecode.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+# A job in the background ignores SIGINT, and so would every command that a test interrupts.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile(
     "repeatable", derandomize=True, database=None, deadline=None, max_examples=60

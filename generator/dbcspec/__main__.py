@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import sys
 
+from typedcan.shell.printing import print_remark, print_warnings
+
 
 def main() -> int:
     """Run the command line, or say which extra it needs."""
+    print_warnings()
     try:
         from dbcspec.cli import run
     except ModuleNotFoundError as error:
         if error.name not in ("yaml", "jinja2"):
             raise
-        print(
-            f"dbcspec: {error.name} is not installed; pip install 'swapcan[generator]' brings it",
-            file=sys.stderr,
+        print_remark(
+            f"dbcspec: {error.name} is not installed; pip install 'swapcan[generator]' brings it"
         )
         return 2
     return run(sys.argv[1:])

@@ -8,10 +8,12 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
+from typing import NoReturn
 
 from dbcspec.commands import compare, generate, lint, load, matrix, show
 from dbcspec.errors import FindingsError, SpecError, StaleArtifactError
 from typedcan.model.errors import ReadError
+from typedcan.shell.printing import print_remark, print_text
 
 _EXAMPLES = """examples:
   dbcspec generate                       write the DBC files, stubs and schemas of the spec
@@ -31,19 +33,16 @@ def run(arguments: Sequence[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a code page without Chinese shows ? instead
-    parser = command_line()
-    options = parser.parse_args(arguments)
     try:
+        options = command_line().parse_args(arguments)
         command: Callable[[argparse.Namespace], int] = options.run
         return command(options)
-    except (FindingsError, StaleArtifactError) as error:
-        print(error, file=sys.stderr)
-        return 1
-    except SpecError as error:
-        print(error, file=sys.stderr)
-        return 2
+    except (FindingsError, StaleArtifactError, SpecError) as error:
+        for line in error.lines:
+            print_remark(line)
+        return 2 if isinstance(error, SpecError) else 1
     except ReadError as error:
-        print(f"dbcspec: {error}", file=sys.stderr)
+        print_remark(f"dbcspec: {error}")
         return 2
     except KeyboardInterrupt:
         return 130
@@ -53,9 +52,16 @@ def run(arguments: Sequence[str]) -> int:
         return 1
 
 
+class _Parser(argparse.ArgumentParser):
+    """Reports a wrong argument in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ReadError(f"{message}; see {self.prog} --help")
+
+
 def command_line() -> argparse.ArgumentParser:
     """The parser of all commands."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="dbcspec",
         description="A CAN protocol as data: tables in YAML in, DBC files and Python stubs out.",
         epilog=_EXAMPLES,
@@ -68,7 +74,7 @@ def command_line() -> argparse.ArgumentParser:
         help="print a completion script for a shell",
     )
     parser.set_defaults(run=lambda options: _no_command(parser, options.print_completion))
-    commands = parser.add_subparsers(title="commands", metavar="")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     for module in (generate, lint, show, compare, matrix, load):
         module.add(commands)
     return parser
@@ -83,5 +89,5 @@ def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
         import shtab
     except ModuleNotFoundError:
         raise ReadError("completion needs shtab: pip install 'swapcan[completion]'") from None
-    print(shtab.complete(parser, shell))
+    print_text(shtab.complete(parser, shell))
     return 0

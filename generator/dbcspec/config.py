@@ -80,15 +80,17 @@ def read_lint_config(path: Path) -> Options:
 def _text(path: Path) -> str:
     try:
         return path.read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ReadError(f"{path}: {error}") from None
+    except OSError as error:
+        raise ReadError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise ReadError(f"{path}: is not UTF-8") from None
 
 
 def _document(path: Path, text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise ReadError(f"{path}: {error}") from None
+        raise ReadError(f"{path}: is not TOML: {error}") from None
 
 
 def _config(path: Path, text: str, table: Mapping[str, Any]) -> Config:

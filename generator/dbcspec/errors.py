@@ -20,7 +20,16 @@ class Fault:
 
 
 class DbcspecError(TypedcanError):
-    """Base of the errors of the toolchain alone."""
+    """Base of the errors of the toolchain alone; ``lines`` are what it says."""
+
+    def __init__(self, *lines: str) -> None:
+        self._lines = lines
+        super().__init__("\n".join(lines))
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """What it says, a fault a line."""
+        return self._lines
 
 
 class SpecError(DbcspecError):
@@ -29,7 +38,7 @@ class SpecError(DbcspecError):
     def __init__(self, faults: Iterable[Fault]) -> None:
         self.faults = tuple(sorted(set(faults)))
         self.location = self.faults[0].where
-        super().__init__("\n".join(map(str, self.faults)))
+        super().__init__(*map(str, self.faults))
 
     @classmethod
     def at(cls, where: Location, text: str) -> SpecError:
@@ -42,12 +51,8 @@ class FindingsError(DbcspecError):
 
     def __init__(self, findings: Iterable[object]) -> None:
         self.findings = tuple(findings)
-        super().__init__("\n".join(map(str, self.findings)))
+        super().__init__(*map(str, self.findings))
 
 
 class StaleArtifactError(DbcspecError):
-    """Generated files on disk are not what the spec makes; ``reports`` has one per file."""
-
-    def __init__(self, reports: Iterable[str]) -> None:
-        self.reports = tuple(reports)
-        super().__init__("\n".join(self.reports))
+    """Generated files on disk are not what the spec makes: a line for each, and how it differs."""

@@ -11,6 +11,7 @@ from typedcan.model.errors import ReadError
 from typedcan.model.layout import bits
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Message, Protocol, Signal, ValueTable
+from typedcan.shell.printing import printable
 
 _LETTERS = string.ascii_lowercase + string.ascii_uppercase
 _WIDTH = 100
@@ -38,7 +39,7 @@ def show(protocol: Protocol, message: Message) -> str:
         list(_acts(message)),
         list(_errata(protocol, message)),
     ]
-    return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
+    return "\n\n".join("\n".join(map(printable, block)) for block in blocks if block) + "\n"
 
 
 def _head(message: Message) -> Iterator[str]:
@@ -79,7 +80,7 @@ def _signals(message: Message) -> Iterator[str]:
     heading = "signal start bits order factor offset range unit where"
     rows: list[tuple[str, ...]] = [("", *heading.split())]
     rows += [
-        (letter, *_cells(signal))
+        (letter, *map(printable, _cells(signal)))
         for signal, letter in zip(message.signals, _letters(message), strict=True)
     ]
     yield from _aligned(rows)

@@ -6,6 +6,7 @@ word and forget where things stood, so only PyYAML's composer is used.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,8 @@ from typedcan.model.errors import Location
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DEEPEST = 40
+_NOT_YAML = re.compile("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_TOO_MANY_OPENED = re.compile(rf"(?:[\[{{]\s*){{{_DEEPEST}}}[\[{{]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,28 +61,44 @@ def read_yaml(path: Path, shown_as: str) -> Node:
 
 def compose(text: str, shown_as: str) -> Node:
     """Turn YAML text into located nodes; see `read_yaml`."""
-    faults = [
-        Fault(Location(shown_as, number, line.index("\t") + 1), "tab character: use spaces")
-        for number, line in enumerate(text.split("\n"), start=1)
-        if "\t" in line
-    ]
-    if faults:
+    if faults := list(_character_faults(text, shown_as)):
         raise SpecError(faults)
     try:
         faults.extend(_event_faults(text, shown_as))
         root = None if faults else yaml.compose(text, Loader=_LOADER)
     except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        where = _place(mark, shown_as) if mark else Location(shown_as)
-        raise SpecError.at(where, f"not YAML: {error.problem or error.context}") from None
-    except yaml.reader.ReaderError as error:
-        raise SpecError.at(Location(shown_as), f"not YAML: {error.reason}") from None
+        raise SpecError([_parser_fault(error, text, shown_as)]) from None
     if root is None:
         raise SpecError(faults or [Fault(Location(shown_as), "the file is empty")])
     node = _Converter(shown_as, faults).convert(root)
     if faults:
         raise SpecError(faults)
     return node
+
+
+def _character_faults(text: str, shown_as: str) -> Iterator[Fault]:
+    """The first tab, and the first character that YAML does not allow, of each line."""
+    for number, line in enumerate(text.split("\n"), start=1):
+        if "\t" in line:
+            where = Location(shown_as, number, line.index("\t") + 1)
+            yield Fault(where, "tab character: use spaces")
+        if found := _NOT_YAML.search(line):
+            where = Location(shown_as, number, found.start() + 1)
+            yield Fault(where, f"not YAML: character U+{ord(found[0]):04X} is not allowed")
+
+
+def _parser_fault(error: yaml.MarkedYAMLError, text: str, shown_as: str) -> Fault:
+    """Why PyYAML's parser gives up.
+
+    Where many brackets open in a row it may do so before it yields an event of the first.
+    """
+    if deep := _TOO_MANY_OPENED.search(text):
+        before = text[: deep.end() - 1]
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        return Fault(Location(shown_as, line, column), "nested too deeply")
+    mark = error.problem_mark or error.context_mark
+    where = _place(mark, shown_as) if mark else Location(shown_as)
+    return Fault(where, f"not YAML: {error.problem or error.context}")
 
 
 def _event_faults(text: str, shown_as: str) -> Iterator[Fault]:

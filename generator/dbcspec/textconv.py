@@ -6,7 +6,6 @@ around it. The order of the file, its spacing and its encoding do not matter.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator
 
 from typedcan.model.numbers import number
@@ -20,6 +19,7 @@ from typedcan.model.protocol import (
     Transfer,
     ValueTable,
 )
+from typedcan.shell.printing import printable, printable_json
 
 _Fact = tuple[str, object]
 """What is said, and the value: text is quoted, None and "" are left out."""
@@ -31,7 +31,7 @@ def textconv(protocol: Protocol) -> str:
     What the source of the protocol cannot say is left out, and so is the name of the whole: a
     DBC file without one is called by its file name, which git makes up.
     """
-    return "".join(f"{line}\n" for line in _lines(protocol))
+    return "".join(f"{printable(line)}\n" for line in _lines(protocol))
 
 
 def _lines(protocol: Protocol) -> Iterator[str]:
@@ -76,7 +76,7 @@ def _about(subject: str, facts: Iterable[_Fact]) -> Iterator[str]:
 
 def _written(value: object) -> str:
     bare = not isinstance(value, str) or (isinstance(value, _Bare) and value.isprintable())
-    return str(value) if bare else json.dumps(value, ensure_ascii=False)
+    return str(value) if bare else printable_json(value)
 
 
 def _words(title: str, english: str) -> list[_Fact]:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import sys
 
 from swapcan.cli import run
+from typedcan.shell.printing import print_warnings
 
 
 def main() -> int:
     """Run the command line with the arguments of this process; return its exit status."""
+    print_warnings()
     try:
         return run(sys.argv[1:])
     except KeyboardInterrupt:  # before a command began, or a second one

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from importlib.metadata import PackageNotFoundError, version
 
 from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
-from swapcan.console import CommandError, Parser, finish, note, say
+from swapcan.console import CommandError, Parser, finish, note, say_text
 from typedcan.wire.errors import one_line
 
 _COMMANDS = (
@@ -116,5 +116,5 @@ def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
         import shtab
     except ModuleNotFoundError:
         raise CommandError("completion needs shtab: pip install 'swapcan[completion]'") from None
-    say(shtab.complete(parser, shell))
+    say_text(shtab.complete(parser, shell))
     return 0

@@ -7,12 +7,13 @@ import errno
 import math
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NoReturn
 
 from typedcan.model.errors import TypedcanError
+from typedcan.shell.printing import print_line, print_remark, print_text
 
 
 class CommandError(TypedcanError):
@@ -42,13 +43,19 @@ class Parser(argparse.ArgumentParser):
 
 
 def say(text: str, *, flush: bool = False) -> None:
-    """Print a result.
+    """Print a line of the results.
 
     Raises `BrokenPipeError` where nobody reads any more, and `CommandError` where the output
     cannot be written.
     """
     with _writing():
-        print(text, flush=flush)
+        print_line(text, flush=flush)
+
+
+def say_text(text: str, *, coloured: bool = False) -> None:
+    """Print results of several lines, as `typedcan.shell.printing.print_text`; raises as `say`."""
+    with _writing():
+        print_text(text, coloured=coloured)
 
 
 def finish() -> None:
@@ -72,18 +79,7 @@ def _writing() -> Iterator[None]:
 
 def note(text: str) -> None:
     """Print a remark or an error, beside the results."""
-    if sys.stderr:  # else print would take stdout
-        print(f"swapcan: {text}", file=sys.stderr, flush=True)
-
-
-def aligned(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """The lines of a table."""
-    table = [headings, ["-" * len(heading) for heading in headings], *rows]
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    table[1] = ["-" * width for width in widths]
-    for row in table:
-        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        yield "  ".join(cells).rstrip()
+    print_remark(f"swapcan: {text}")
 
 
 def seconds(text: str) -> float:

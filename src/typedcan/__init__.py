@@ -1,1 +1,1 @@
-"""The runtime for any CAN protocol: one model of it, databases in, typed messages on a bus."""
+"""The runtime for any CAN protocol: it names no message, signal or node of one."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import datetime
+import errno
+import os
 from pathlib import Path
 
 import pytest
@@ -139,7 +141,7 @@ def test_what_is_missing_is_named_with_the_line_of_the_approval(key: str, tmp_pa
         ("[accepted]\n" + REASON, "write [[accepted]]"),
         ("accepted = [1]\n", "write [[accepted]]"),
         ("[[approved]]\n" + REASON, "unknown key 'approved'"),
-        ("[[accepted\n", "line 1"),
+        ("[[accepted\n", "is not TOML: "),
     ],
 )
 def test_a_fault_is_one_line_that_says_what_to_do(text: str, words: str, tmp_path: Path) -> None:
@@ -149,7 +151,7 @@ def test_a_fault_is_one_line_that_says_what_to_do(text: str, words: str, tmp_pat
 
 
 def test_a_file_that_is_not_there_or_not_text_is_one_line(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match=r"^none\.toml: No such file"):
+    with pytest.raises(ReadError, match=f"^none.toml: {os.strerror(errno.ENOENT)}$"):
         read_approvals(tmp_path / "none.toml", "none.toml")
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ReadError, match=r"^binary\.toml: is not UTF-8"):

@@ -11,10 +11,9 @@ import pytest
 
 from dbcspec.compare.run import compare
 from dbcspec.config import Config
-from typedcan.model.protocol import Aspect, Protocol
 from dbcspec.project import load
 from dbcspec.report.item import Item
-from typedcan.model.protocol import Protocol
+from typedcan.model.protocol import Aspect, Protocol
 
 BASE = Path(__file__).with_name("cases") / "bus-present" / "previous"
 ACTS = "acts:\n  - {signal: LAMP, codes: [15], safe: 0, cite: here}\nrequests:"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -230,13 +231,11 @@ def test_a_report_that_cannot_be_finished_leaves_the_old_one(
     table.write_text("old", "ascii")
 
     def fail(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+        raise OSError(errno.ENOSPC, "full")
 
     monkeypatch.setattr(Path, "replace", fail)
     assert run(sound, "--csv", table) == 2
-    assert capsys.readouterr().err == (
-        f"swapcan: {table}: cannot be written: No space left on device\n"
-    )
+    assert capsys.readouterr().err == f"swapcan: {table}: cannot be written: full\n"
     assert [each.name for each in tmp_path.iterdir()] == ["a.csv"]
     assert table.read_text("ascii") == "old"
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -21,7 +23,7 @@ def run(*arguments: object) -> int:
     ("arguments", "problem"),
     [
         ([], "what is to be judged? give logs, or a bus with -i and -c"),
-        (["no.log"], "no.log: No such file or directory"),
+        (["no.log"], f"no.log: {os.strerror(errno.ENOENT)}"),
         (["{log}", "--judge", "BMS"], "there is no node 'BMS'; BMU, VCU, CHG, TMS, BSU"),
         (["{log}", "--only", "checksums"], "there is no rule 'checksums'; see --list-rules"),
         (["{log}", "--skip", "reaction-hv-on"], "there is no rule 'reaction-hv-on'; see"),
@@ -31,7 +33,7 @@ def run(*arguments: object) -> int:
         (["{log}", "--tolerance", "a.b=-1"], "expected NAME=NUMBER, not 'a.b=-1'"),
         (["{log}", "--tolerance", "a.b=1_0"], "expected NAME=NUMBER, not 'a.b=1_0'"),
         (["{log}", "--tolerance", "a.b"], "expected NAME=NUMBER, not 'a.b'"),
-        (["{log}", "--language", "de"], "argument --language: invalid choice: 'de'"),
+        (["{log}", "--language", "de"], "--language"),
         (["{log}", "--from", "soon"], "expected seconds or a date like"),
         (["{log}", "-i", "virtual"], "--interface is for a bus: judge logs, or a bus, not both"),
         (["{log}", "--yes-drive-the-bus"], "--yes-drive-the-bus is for a bus"),

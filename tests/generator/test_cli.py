@@ -240,9 +240,27 @@ def test_rules_lists_every_rule_with_its_purpose(small: Path) -> None:
     assert "signals-overlap" in text.stdout
 
 
-def test_a_command_line_that_makes_no_sense_is_answered_with_the_usage(small: Path) -> None:
-    for arguments in ((), ("generat",), ("show",), ("lint", "--jsn")):
-        assert refused(small, *arguments)[0].startswith("usage: dbcspec")
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (("generat",), "COMMAND"),
+        (("generat",), "'generat'"),
+        (("matrix",), "COMMAND; see dbcspec matrix --help"),
+        (("show",), "MESSAGE; see dbcspec show --help"),
+        (("lint", "--jsn"), "--jsn"),
+        (("load", "--groups", "0"), "expected a positive whole number, not '0'"),
+    ],
+)
+def test_a_command_line_that_makes_no_sense_is_one_line(
+    arguments: tuple[str, ...], text: str, small: Path
+) -> None:
+    (line,) = refused(small, *arguments)
+    assert line.startswith("dbcspec: ")
+    assert text in line
+
+
+def test_without_a_command_there_is_help(small: Path) -> None:
+    assert any(line.startswith("  dbcspec generate  ") for line in refused(small))
 
 
 def test_a_process_of_its_own_ends_with_the_same_status_and_words(tmp_path: Path) -> None:

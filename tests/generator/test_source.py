@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from dbcspec.errors import SpecError
 from dbcspec.source import Items, Node, Scalar, Table, compose, read_yaml
@@ -114,10 +117,26 @@ def test_a_second_document_is_a_fault_where_it_begins() -> None:
     ]
 
 
-@pytest.mark.parametrize("depth", [100, 1000, 200_000])
-def test_text_nested_too_deeply_is_a_fault_and_no_crash(depth: int) -> None:
-    (fault,) = faults("[" * depth + "]" * depth)
-    assert fault.endswith("nested too deeply")
+@pytest.mark.parametrize("depth", [41, 1000, 200_000])
+@pytest.mark.parametrize(
+    ("opening", "column"), [("[", 41), ("[ ", 81), ("{a: ", 161), ("- ", 81), ("? ", 81)]
+)
+def test_text_nested_too_deeply_is_a_fault_where_it_is_and_no_crash(
+    opening: str, column: int, depth: int
+) -> None:
+    assert faults(opening * depth) == [f"spec/t.yaml:1:{column}: nested too deeply"]
+
+
+def test_text_nested_too_deeply_over_many_lines_is_a_fault_in_its_line() -> None:
+    assert faults("a: 1\nb:" + "\n [" * 2000) == ["spec/t.yaml:42:2: nested too deeply"]
+
+
+def test_text_nested_as_deeply_as_is_allowed_is_read() -> None:
+    node = plain(compose("[" * 40 + "x" + "]" * 40, "t"))
+    for _ in range(40):
+        assert isinstance(node, list)
+        (node,) = node
+    assert node == "x"
 
 
 @pytest.mark.parametrize(
@@ -129,9 +148,17 @@ def test_broken_yaml_is_a_fault_with_its_place(text: str, place: str) -> None:
     assert fault.startswith(f"spec/t.yaml:{place}: not YAML: ")
 
 
-def test_a_control_character_is_a_fault() -> None:
-    (fault,) = faults("a: \x07\n")
-    assert "not YAML: control characters are not allowed" in fault
+@pytest.mark.parametrize("code", [0, 7, 0x1B, 0x7F, 0x80, 0x9F, 0xFFFE, 0xFFFF, 0xD800])
+def test_a_character_that_no_yaml_has_is_a_fault_with_its_place(code: int) -> None:
+    assert faults(f"a: 1\nb: {chr(code)}\n") == [
+        f"spec/t.yaml:2:4: not YAML: character U+{code:04X} is not allowed"
+    ]
+
+
+@given(st.characters(exclude_categories=[]), st.sampled_from(["{}", "'{}'", "# {}", "|\n  {}"]))
+def test_no_character_raises_anything_else_than_a_fault(character: str, form: str) -> None:
+    with suppress(SpecError):
+        compose(f"a: {form.format(character)}\n", "t.yaml")
 
 
 def test_bytes_that_are_not_utf_8_are_a_fault_with_their_place(tmp_path: Path) -> None:

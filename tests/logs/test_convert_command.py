@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import signal
 from pathlib import Path
 from typing import Any
@@ -187,8 +189,8 @@ def test_a_damaged_log_is_converted_up_to_the_damage_and_the_exit_status_is_3(
         (["--signals", "SOX"], "no signal 'SOX'"),
         (["--dbc", "none.dbc"], "none.dbc"),
         (["--jobs", "0"], "--jobs"),
-        (["--raw", "--labels"], "not allowed with"),
-        (["--long", "--raster", "1s"], "not allowed with"),
+        (["--raw", "--labels"], "--labels"),
+        (["--long", "--raster", "1s"], "--raster"),
     ],
 )
 def test_a_wrong_option_is_said_in_one_line(
@@ -209,7 +211,7 @@ def test_a_log_that_is_missing_is_said_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert _run(tmp_path / "none.blf", "-o", tmp_path / "x.parquet") == 2
-    assert capsys.readouterr().err.endswith("none.blf: No such file or directory\n")
+    assert capsys.readouterr().err.endswith(f"none.blf: {os.strerror(errno.ENOENT)}\n")
 
 
 def test_output_that_exists_is_kept_unless_forced(

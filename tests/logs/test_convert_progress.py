@@ -17,7 +17,7 @@ class _Terminal(io.StringIO):
 def test_progress_is_drawn_on_a_terminal_and_taken_away() -> None:
     stream = _Terminal()
     progress = Progress(1000, stream)
-    progress._next = 0.0
+    progress._line._next = 0.0
     progress.update(500, 10)
     drawn = stream.getvalue()
     assert "50%" in drawn
@@ -29,7 +29,7 @@ def test_progress_is_drawn_on_a_terminal_and_taken_away() -> None:
 def test_progress_is_silent_elsewhere() -> None:
     stream = io.StringIO()
     progress = Progress(1000, stream)
-    progress._next = 0.0
+    progress._line._next = 0.0
     progress.update(500, 10)
     progress.clear()
     assert stream.getvalue() == ""

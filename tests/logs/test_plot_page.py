@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -223,6 +225,6 @@ def test_an_output_that_is_there_is_replaced_only_on_request(tmp_path: Path) -> 
 
 def test_an_output_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     log = write(tmp_path / "drive.asc", [(0.0, soc(80)), (0.1, soc(80))])
-    with pytest.raises(CommandError, match="No such file or directory"):
+    with pytest.raises(CommandError, match=os.strerror(errno.ENOENT)):
         plot(log, "--signals", "SOC", "-o", tmp_path / "absent" / "out.html")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["drive.asc"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import struct
 import time
 import zipfile
@@ -36,7 +38,8 @@ def refusal(path: Path) -> str:
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    assert "No such file" in refusal(tmp_path / "gone.xlsx")
+    text = refusal(tmp_path / "gone.xlsx")
+    assert text.endswith(f"cannot be read: {os.strerror(errno.ENOENT)}")
 
 
 def test_a_folder(tmp_path: Path) -> None:
@@ -113,9 +116,16 @@ def test_a_directory_that_lies_about_sizes(data: bytes, tmp_path: Path) -> None:
 def test_a_part_that_stands_in_the_zip_twice(data: bytes, tmp_path: Path) -> None:
     path = tmp_path / "m.xlsx"
     path.write_bytes(data)
-    with zipfile.ZipFile(path, "a") as archive, pytest.warns(UserWarning, match="Duplicate"):
+    with zipfile.ZipFile(path, "a") as archive, pytest.warns(UserWarning, match="workbook"):
         archive.writestr("xl/workbook.xml", b"<workbook/>")
     assert "one twice" in refusal(path)
+
+
+def test_a_part_with_a_password(data: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "m.xlsx"
+    flags = data.rindex(b"PK\x01\x02") + 8  # of the last part, in the central directory
+    path.write_bytes(data[:flags] + bytes([data[flags] | 1]) + data[flags + 1 :])
+    assert "is protected by a password" in refusal(path)
 
 
 def test_xml_that_declares_entities(data: bytes, tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -72,7 +74,7 @@ def test_a_format_that_nobody_writes_is_refused_and_leaves_no_file(
 
 
 def test_a_folder_that_is_not_there_is_one_line(monitored: Monitored, tmp_path: Path) -> None:
-    with pytest.raises(RecordingError, match="cannot be written: No such file or directory"):
+    with pytest.raises(RecordingError, match=f"cannot be written: {os.strerror(errno.ENOENT)}"):
         monitored.session.record(tmp_path / "gone" / "drive.blf")
 
 

@@ -21,9 +21,11 @@ from swapcan.node.events import BusBack, BusLost
 Steps = Callable[[Pilot[int]], Awaitable[None]]
 
 
-def show(monitored: Monitored, steps: Steps, size: tuple[int, int] = (100, 30)) -> int | None:
+def show(
+    monitored: Monitored, steps: Steps, size: tuple[int, int] = (100, 30), bus: str = "test bus"
+) -> int | None:
     """Show a session, do the steps, and return the exit status if the view was left."""
-    app = MonitorApp(monitored.session, "test bus")
+    app = MonitorApp(monitored.session, bus)
 
     async def run() -> None:
         async with app.run_test(size=size) as pilot:
@@ -230,6 +232,19 @@ def test_a_lost_bus_is_told_until_it_is_back(monitored: Monitored) -> None:
         assert "bus lost" not in (await renewed(pilot))[1]
 
     show(monitored, steps)
+
+
+def test_what_would_steer_the_terminal_is_shown(monitored: Monitored) -> None:
+    async def steps(pilot: Pilot[int]) -> None:
+        assert isinstance(pilot.app, MonitorApp)
+        monitored.session.tell_bus(BusLost("gone\x1b[2J\n\u202e", 0.0))
+        pilot.app._prompt.say("a\x07.blf: recorded\n")
+        lines = await renewed(pilot)
+        assert lines[0].endswith(r"  can\x1b]0;x\x07")
+        assert lines[1].startswith(r" bus lost: gone\x1b[2J\n\u202e ")
+        assert lines[-1] == r"a\x07.blf: recorded\n"
+
+    show(monitored, steps, bus="can\x1b]0;x\x07")
 
 
 def test_a_narrow_terminal_has_the_columns_that_fit(monitored: Monitored) -> None:

@@ -139,7 +139,7 @@ def test_an_event_loop_that_has_ended_does_not_disturb_the_node(
 
 
 def test_a_stream_needs_an_event_loop(near: can.BusABC) -> None:
-    with pytest.raises(RuntimeError, match="no running event loop"):
+    with pytest.raises(RuntimeError, match="outside of an event loop"):
         Node(PROTOCOL, "VCU", near).events()
 
 

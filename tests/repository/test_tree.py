@@ -30,6 +30,47 @@ def test_a_source_file_is_short_and_says_what_it_is_for(path: Path) -> None:
             assert (node.end_lineno or 0) - node.lineno < LONGEST_FUNCTION, node.name
 
 
+def test_nothing_is_printed_but_by_the_functions_that_make_it_printable() -> None:
+    """`print`, and whatever is given or told to write to a stream, stand in one package alone."""
+    found = [
+        f"{path.relative_to(ROOT).as_posix()}:{node.lineno}: {ast.unparse(node)}"
+        for path in SOURCES
+        if path.parent != ROOT / "src" / "typedcan" / "shell"
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Call) and _prints(node)
+    ]
+    assert found == []
+
+
+def _prints(call: ast.Call) -> bool:
+    function = ast.unparse(call.func)
+    if function == "print" or re.search(r"\bstd(out|err)\b.*\.write(lines)?$", function):
+        return True
+    given = (ast.unparse(each) for each in (*call.args, *(word.value for word in call.keywords)))
+    is_stream = any(re.fullmatch(r"sys\.std(out|err)(\.buffer)?", each) for each in given)
+    return is_stream and function not in ("isinstance", "parser.print_help")
+
+
+@pytest.mark.parametrize(
+    ("code", "prints"),
+    [
+        ("print(x)", True),
+        ("print(x, file=sys.stderr)", True),
+        ("sys.stdout.write(x)", True),
+        ("sys.stderr.buffer.write(x)", True),
+        ("stdout.writelines(x)", True),
+        ("json.dump(x, sys.stdout)", True),
+        ("csv.writer(sys.stdout)", True),
+        ("sys.stdout.isatty()", False),
+        ("parser.print_help(sys.stderr)", False),
+        ("file.write(x)", False),
+    ],
+)
+def test_what_prints_is_told_from_what_does_not(code: str, *, prints: bool) -> None:
+    (call,) = (node for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Call))
+    assert _prints(call) is prints
+
+
 def test_the_toolchain_knows_no_name_of_this_standard() -> None:
     names = re.compile(r"B2V|V2B|B2C|C2B|CAAMTB|\bBMU\b|\bVCU\b", re.IGNORECASE)
     docs_and_examples = re.compile(r'""".*?"""|#.*|show B2V_ST2|route such as BMU>VCU', re.DOTALL)

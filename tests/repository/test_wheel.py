@@ -23,19 +23,19 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return next(folder.glob("*.whl"))
 
 
-def test_the_wheel_has_both_packages_their_data_and_no_tests(wheel: Path) -> None:
+def test_the_wheel_has_all_packages_their_data_and_no_tests(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = set(archive.namelist())
     assert {
-        "swapcan/py.typed",
         "typedcan/py.typed",
+        "swapcan/py.typed",
         "swapcan/_generated/caamtb-swap.dbc",
         "swapcan/_generated/messages.py",
         "dbcspec/emit/templates/dbc.j2",
         "dbcspec/cli.py",
     } <= names
     tops = {name.split("/")[0] for name in names if ".dist-info" not in name}
-    assert tops == {"swapcan", "typedcan", "dbcspec"}
+    assert tops == {"typedcan", "swapcan", "dbcspec"}
 
 
 def test_the_installed_wheel_decodes_with_its_own_dbc(wheel: Path, tmp_path: Path) -> None:

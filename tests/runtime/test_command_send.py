@@ -141,10 +141,10 @@ def test_a_number_of_any_length_is_refused_in_a_short_line(capsys: Capture) -> N
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        (["-i", "nothing"], "argument -i/--interface: invalid choice: 'nothing' (choose from "),
-        (["-i", "virtual", "-b", "fast"], "argument -b/--bitrate: invalid int value: 'fast'"),
+        (["-i", "nothing"], "'nothing'"),
+        (["-i", "virtual", "-b", "fast"], "--bitrate"),
         (["-i", "virtual", "--bus-kwargs", "fd"], "expected NAME=VALUE, not 'fd'"),
-        (["-i", "virtual", "--bus-kwargs", "port=x"], "cannot open the bus: Port config must be"),
+        (["-i", "virtual", "--bus-kwargs", "port=x"], "cannot open the bus: "),
         (["-i", "udp_multicast", "-c", "10.0.0.1"], "cannot open the bus: "),
         (["-i", "neovi", "-c", "0"], "cannot open the bus: "),
         (["-i", "kvaser", "-c", "0"], "cannot open the bus: "),

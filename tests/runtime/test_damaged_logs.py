@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import random
 import sqlite3
@@ -26,25 +27,18 @@ def refused(path: Path, capsys: pytest.CaptureFixture[str]) -> tuple[list[str], 
 def test_an_absent_log_is_one_line_and_stays_absent(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert refused(tmp_path / name, capsys) == ([], "No such file or directory")
+    assert refused(tmp_path / name, capsys) == ([], os.strerror(errno.ENOENT))
     assert not (tmp_path / name).exists()
 
 
 @pytest.mark.parametrize("name", ["drive.txt", "drive", "drive.txt.gz"])
-def test_an_unknown_suffix_is_one_line(
+def test_an_unknown_suffix_is_one_line_that_names_the_known_ones(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / name).write_text("")
     _, text = refused(tmp_path / name, capsys)
-    assert "No read support for unknown log format" in text
-
-
-def test_an_unknown_suffix_names_the_known_ones(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "drive.txt").write_text("")
-    _, text = refused(tmp_path / "drive.txt", capsys)
-    assert text.endswith("; known are .asc, .blf, .csv, .db, .log, .mf4, .trc")
+    kinds = ".asc, .blf, .csv, .db, .log, .mf4, .trc"
+    assert text == f"no log of a known kind; known are {kinds}"
 
 
 def test_a_folder_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -55,7 +49,7 @@ def test_a_folder_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads all")
 def test_an_unreadable_log_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(tmp_path / "drive.asc", DRIVE).chmod(0)
-    assert refused(tmp_path / "drive.asc", capsys) == ([], "Permission denied")
+    assert refused(tmp_path / "drive.asc", capsys) == ([], os.strerror(errno.EACCES))
 
 
 @pytest.mark.parametrize("suffix", ["csv", "log", "trc"])

@@ -31,11 +31,11 @@ def run(*arguments: str) -> tuple[int, str, str]:
         (["BMU", "bmu"], "BMU is named twice"),
         (
             ["BMU", "--fault", "overheat@3s"],
-            "argument --fault: there is no fault 'overheat'; known: lost_frame, ",
+            "there is no fault 'overheat'; known: lost_frame, ",
         ),
         (
             ["BMU", "--fault", "over_temperature@soon"],
-            "argument --fault: expected a time such as 30s, 500ms or 2min, not 'soon'",
+            "expected a time such as 30s, 500ms or 2min, not 'soon'",
         ),
         (
             ["VCU", "--fault", "over_temperature@3s"],
@@ -46,8 +46,8 @@ def run(*arguments: str) -> tuple[int, str, str]:
             "BMU.lost_frame@3s: it is for BMU, which is not simulated",
         ),
         (["BMU", "--plan", "hv_on@1s"], "hv_on@1s: it is for VCU, which is not simulated"),
-        (["BMU", "--plan", "fly@1s"], "argument --plan: there is no step 'fly'; known: "),
-        (["BMU", "--seconds", "0"], "argument --seconds: expected a positive number of seconds"),
+        (["BMU", "--plan", "fly@1s"], "there is no step 'fly'; known: "),
+        (["BMU", "--seconds", "0"], "expected a positive number of seconds"),
     ],
 )
 def test_what_cannot_be_is_one_line_and_status_2_before_a_bus_is_opened(
@@ -57,7 +57,8 @@ def test_what_cannot_be_is_one_line_and_status_2_before_a_bus_is_opened(
     assert cli.run(["simulate", *arguments, *bus]) == 2
     said = capsys.readouterr()
     assert said.out == ""
-    assert said.err.startswith(f"swapcan: {problem}")
+    assert said.err.startswith("swapcan: ")
+    assert problem in said.err
     assert said.err.count("\n") == 1
 
 
@@ -180,7 +181,6 @@ def test_pack_and_charger_can_talk_on_a_bus_of_their_own() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for one process")
-@pytest.mark.skipif(signal.getsignal(signal.SIGINT) is signal.SIG_IGN, reason="SIGINT is ignored")
 def test_ctrl_c_ends_it_with_its_summary_and_no_traceback() -> None:
     options = bus_options("udp_multicast")
     with started(*COMMAND, "TMS", *as_arguments(options)) as process:

@@ -16,6 +16,7 @@ from dbcspec.read.doors import open_side
 from dbcspec.report.formats import FORMATS, render
 from dbcspec.report.item import Report
 from typedcan.model.protocol import Protocol
+from typedcan.shell.printing import print_text
 
 
 class Commands(typing.Protocol):
@@ -63,9 +64,8 @@ def print_report(options: argparse.Namespace, report: Report) -> None:
         return
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     encoding = (sys.stdout.encoding or "ascii").lower().replace("-", "")
-    sys.stdout.write(
-        render(report, options.format, colour=colour, ascii_only=not encoding.startswith("utf"))
-    )
+    text = render(report, options.format, colour=colour, ascii_only=not encoding.startswith("utf"))
+    print_text(text, coloured=colour)
 
 
 def source_protocol(options: argparse.Namespace) -> Protocol:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-from dbcspec.artifacts import artifacts, foreign_artifacts, verify, write
+from dbcspec.artifacts import Stale, artifacts, foreign_artifacts, verify, write
 from dbcspec.commands.common import Commands, load_sound_project, project_option
 from dbcspec.errors import StaleArtifactError
 from dbcspec.read.doors import open_side
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
+from typedcan.shell.printing import print_line, printable_json
 
 
 def add(commands: Commands) -> None:
@@ -49,18 +50,25 @@ def _generate(options: argparse.Namespace) -> int:
         files = artifacts(protocol, project.config)
     changed = write(root, files)
     if options.json:
-        print(json.dumps({**_counts(protocol), "digest": protocol.digest, "changed": changed}))
+        print_line(
+            printable_json({**_counts(protocol), "digest": protocol.digest, "changed": changed})
+        )
         return 0
     counts = _counts(protocol)
-    print(
+    print_line(
         f"{protocol.name}: {counts['messages']} messages, {counts['signals']} signals,"
         f" {counts['value_tables']} value tables, {counts['errata']} errata applied,"
         f" digest {protocol.digest}"
     )
     for name in changed:
-        print(f"wrote {name}")
-    print(f"{len(files) - len(changed)} of {len(files)} files were current")
+        print_line(f"wrote {name}")
+    print_line(f"{len(files) - len(changed)} of {len(files)} files were current")
     return 0
+
+
+def _stale_lines(stale: Stale) -> Iterator[str]:
+    yield f"{stale.path}: {stale.why}"
+    yield from (f"    {line}" for line in stale.diff)
 
 
 def _counts(protocol: Protocol) -> dict[str, int]:
@@ -78,11 +86,9 @@ def _check(options: argparse.Namespace) -> int:
     stale = verify(project.config.root, files, project.protocol, project.config)
     if options.json:
         found = [{"path": each.path, "why": each.why, "diff": list(each.diff)} for each in stale]
-        print(json.dumps(found, ensure_ascii=False))
+        print_line(printable_json(found))
         return 1 if stale else 0
     if stale:
-        raise StaleArtifactError(
-            "\n    ".join((f"{each.path}: {each.why}", *each.diff)) for each in stale
-        )
-    print(f"{len(files)} files are current, digest {project.protocol.digest}")
+        raise StaleArtifactError(*(line for each in stale for line in _stale_lines(each)))
+    print_line(f"{len(files)} files are current, digest {project.protocol.digest}")
     return 0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from dbcspec.artifacts import put_in_place
@@ -26,6 +25,7 @@ from dbcspec.report.item import Report
 from dbcspec.report.rules import print_rules
 from typedcan.databases.encoding import read_encoded
 from typedcan.model.errors import ReadError
+from typedcan.shell.printing import print_remark, print_text
 
 
 def add(commands: Commands) -> None:
@@ -96,9 +96,9 @@ def _fix(options: argparse.Namespace) -> None:
     if done:
         put_in_place({path: fixed})
     for each in done:
-        print(f"{path}: {each}", file=sys.stderr)
+        print_remark(f"{path}: {each}")
 
 
 def _rules(options: argparse.Namespace) -> int:
-    print(print_rules([*rule_infos(), *PROMISES], options.format), end="")
+    print_text(print_rules([*rule_infos(), *PROMISES], options.format))
     return 0

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -16,6 +14,7 @@ from dbcspec.load.tables import data, text
 from dbcspec.load.traffic import Scenario, Size
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Bus, Protocol
+from typedcan.shell.printing import print_text, printable, printable_json
 
 _EXAMPLES = """examples:
   dbcspec load --groups 18 --items cell_voltages=216 --items probe_temperatures=108
@@ -70,10 +69,9 @@ def _run(options: argparse.Namespace) -> int:
     if options.plot:
         put_in_place(_pictures(options.plot, loads))
     if options.json:
-        json.dump([data(load) for load in loads], sys.stdout, indent=2)
-        print()
+        print_text(printable_json([data(load) for load in loads], indent=2))
     else:
-        print("\n\n".join("\n".join(text(load)) for load in loads))
+        print_text("\n\n".join("\n".join(map(printable, text(load))) for load in loads))
     return 1 if any(load.late for load in loads) else 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from dbcspec.artifacts import put_in_place, write
@@ -23,13 +22,14 @@ from dbcspec.read.matrix import read_matrix
 from dbcspec.report.item import Report
 from dbcspec.write_spec import propose_spec
 from typedcan.model.errors import ReadError
+from typedcan.shell.printing import print_line, print_remark
 
 
 def add(commands: Commands) -> None:
     """Declare the commands."""
     text = "write or read the Excel CAN matrix"
     matrix = commands.add_parser("matrix", help=text, description=f"{text.capitalize()}.")
-    ways = matrix.add_subparsers(title="commands", metavar="", required=True)
+    ways = matrix.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
     text = "write the matrix of the project, or of a DBC"
     export = ways.add_parser("export", help=text, description=f"{text.capitalize()}.")
@@ -59,7 +59,7 @@ def _export(options: argparse.Namespace) -> int:
     protocol = source_protocol(options)
     path = options.output or Path(f"{protocol.name}.xlsx")
     put_in_place({path: emit_matrix(protocol)})
-    print(f"wrote {path}")
+    print_line(f"wrote {path}")
     return 0
 
 
@@ -74,9 +74,9 @@ def _import_matrix(options: argparse.Namespace) -> int:
     folder = project.config.root / project.config.spec
     proposal = propose_spec(folder, project.protocol, matrix)
     for name in write(folder, proposal.files):
-        print(f"wrote {project.config.spec}/{name}")
+        print_line(f"wrote {project.config.spec}/{name}")
     for text in proposal.not_written:
-        print(f"dbcspec: not written: {text}", file=sys.stderr)
+        print_remark(f"dbcspec: not written: {text}")
     return 1 if proposal.not_written else 0
 
 
@@ -85,5 +85,5 @@ def _import(options: argparse.Namespace) -> int:
         raise ReadError(f"{options.out}: is not empty; a spec is written into a folder of its own")
     protocol = open_side(options.file, encoding=options.encoding).protocol
     for name in write(options.out, emit_spec(protocol)):
-        print(f"wrote {options.out / name}")
+        print_line(f"wrote {options.out / name}")
     return 0

@@ -8,6 +8,7 @@ from dbcspec.commands.common import Commands, project_option, source_protocol
 from dbcspec.read.doors import open_side
 from dbcspec.show import find_message, show
 from dbcspec.textconv import textconv
+from typedcan.shell.printing import print_text
 
 
 def add(commands: Commands) -> None:
@@ -29,10 +30,10 @@ def add(commands: Commands) -> None:
 
 def _show(options: argparse.Namespace) -> int:
     protocol = source_protocol(options)
-    print(show(protocol, find_message(protocol, options.name)), end="")
+    print_text(show(protocol, find_message(protocol, options.name)))
     return 0
 
 
 def _textconv(options: argparse.Namespace) -> int:
-    print(textconv(open_side(options.source, encoding=options.encoding).protocol), end="")
+    print_text(textconv(open_side(options.source, encoding=options.encoding).protocol))
     return 0

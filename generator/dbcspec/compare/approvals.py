@@ -65,7 +65,7 @@ def read_approvals(path: Path, shown_as: str | None = None) -> tuple[Approval, .
     except UnicodeDecodeError:
         raise ReadError(f"{name}: is not UTF-8") from None
     except tomllib.TOMLDecodeError as error:
-        raise ReadError(f"{name}: {error}") from None
+        raise ReadError(f"{name}: is not TOML: {error}") from None
     if unknown := sorted(set(document) - {"accepted"}):
         raise ReadError(f"{name}: unknown key {unknown[0]!r}; approvals are [[accepted]] tables")
     entries = document.get("accepted", [])

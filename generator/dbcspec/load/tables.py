@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
 from dbcspec.load.analysis import BusLoad, MessageLoad
+from typedcan.shell.printing import aligned
 
 
 def text(load: BusLoad) -> Iterator[str]:
@@ -17,11 +18,11 @@ def text(load: BusLoad) -> Iterator[str]:
     )
     yield ""
     headings = ("message", "identifier", "sender", "frames", "period", "load", "stuffed", "worst")
-    yield from _aligned(headings, [_row(each) for each in load.messages])
+    yield from aligned(headings, [_row(each) for each in load.messages])
     yield ""
     nodes = load.by_node().items()
     rows = [(name, _percent(bare), _percent(stuffed)) for name, (bare, stuffed) in nodes]
-    yield from _aligned(("node", "load", "stuffed"), rows)
+    yield from aligned(("node", "load", "stuffed"), rows)
     yield ""
     for name, most in load.fitting.items():
         yield f"{name}: up to {most} items with every message in time"
@@ -81,11 +82,3 @@ def _row(each: MessageLoad) -> tuple[str, ...]:
 
 def _percent(part: Fraction) -> str:
     return f"{float(part * 100):.2f} %"
-
-
-def _aligned(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    table = [headings, ["-" * len(heading) for heading in headings], *rows]
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    table[1] = ["-" * width for width in widths]
-    for row in table:
-        yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()

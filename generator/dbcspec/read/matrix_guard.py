@@ -34,6 +34,7 @@ _SMALL_PART = 2**20
 _CHUNK = 2**16
 _OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
+_ENCRYPTED_PART = 1  # of the flag bits of a part of a zip file
 _SHEETS = "xl/worksheets/"
 _RELATION = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 
@@ -52,10 +53,8 @@ def check_workbook(path: Path, name: str) -> Checked:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return Checked(data, _Archive(archive, name).check())
-    except (zipfile.BadZipFile, EOFError, zlib.error, NotImplementedError, RuntimeError) as error:
-        # The zip module raises RuntimeError for a part with a password.
-        why = "is protected by a password" if "password" in str(error) else "is damaged or cut off"
-        raise ReadError(f"{name}: {why}; save it again as .xlsx, without a password") from None
+    except (zipfile.BadZipFile, EOFError, zlib.error, NotImplementedError, RuntimeError):
+        raise ReadError(f"{name}: is damaged or cut off; save it again as .xlsx") from None
 
 
 def _bytes(path: Path, name: str) -> bytes:
@@ -91,6 +90,8 @@ class _Archive:
         """The merged ranges of each sheet; raises `ReadError` for what must not be opened."""
         parts = self._archive.infolist()
         names = {part.filename for part in parts}
+        if any(part.flag_bits & _ENCRYPTED_PART for part in parts):
+            raise ReadError(f"{self._name}: is protected by a password; save it without one")
         if len(parts) > MOST_PARTS or len(names) < len(parts):
             raise ReadError(f"{self._name}: has too many parts, or one twice: no sound workbook")
         if any(name.lower().endswith("vbaproject.bin") for name in names):

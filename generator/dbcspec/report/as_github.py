@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dbcspec.report.item import LEVELS, Item, Report
 from dbcspec.report.paths import slashed
-from dbcspec.report.texts import sentence, visible
+from dbcspec.report.texts import sentence
+from typedcan.shell.printing import printable
 
 COMMANDS = {
     "error": "error",
@@ -29,7 +30,7 @@ def _command(item: Item) -> str:
     place = {"file": slashed(where.path), "line": str(where.line), "col": str(where.column)}
     properties = {**(place if where.path else {}), "title": item.rule}
     written = ",".join(
-        f"{key}={visible(value).translate(_PROPERTY)}" for key, value in properties.items()
+        f"{key}={printable(value).translate(_PROPERTY)}" for key, value in properties.items()
     )
     return (
         f"::{COMMANDS[item.level]} {written}::{sentence(item, longest=_LONGEST).translate(_DATA)}"

@@ -16,8 +16,8 @@ from dbcspec.report.texts import (
     details,
     grouped,
     purposes,
-    visible,
 )
+from typedcan.shell.printing import printable
 
 
 @cache
@@ -30,7 +30,7 @@ def _template() -> jinja2.Template:
         keep_trailing_newline=True,
         autoescape=True,
     )
-    environment.filters["visible"] = visible
+    environment.filters["printable"] = printable
     return environment.get_template("report.html.j2")
 
 

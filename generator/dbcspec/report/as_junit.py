@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from dbcspec.report.item import Item, Report, RuleInfo
 from dbcspec.report.paths import slashed
-from dbcspec.report.texts import gravest, plural, purposes, sentence, visible
+from dbcspec.report.texts import gravest, plural, purposes, sentence
+from typedcan.shell.printing import printable
 
 
 def to_junit(report: Report) -> str:
@@ -25,7 +26,7 @@ def to_junit(report: Report) -> str:
     }
     suites = ET.Element("testsuites", totals)
     suite = ET.SubElement(
-        suites, "testsuite", {"name": visible(report.title), **totals, "skipped": "0"}
+        suites, "testsuite", {"name": printable(report.title), **totals, "skipped": "0"}
     )
     for rule, items in found.items():
         _case(
@@ -41,17 +42,17 @@ def _case(suite: ET.Element, rule: RuleInfo, why: str, items: Sequence[Item]) ->
     case = ET.SubElement(
         suite,
         "testcase",
-        {"classname": f"dbcspec.{rule.level}", "name": visible(rule.id), "time": "0"},
+        {"classname": f"dbcspec.{rule.level}", "name": printable(rule.id), "time": "0"},
     )
     if not items:
         return
     if items[0].where.path:
-        case.set("file", visible(slashed(items[0].where.path)))
+        case.set("file", printable(slashed(items[0].where.path)))
     failure = ET.SubElement(
         case,
         "failure",
         {
-            "message": visible(f"{plural(len(items), 'finding')}. {why}".rstrip()),
+            "message": printable(f"{plural(len(items), 'finding')}. {why}".rstrip()),
             "type": gravest(items),
         },
     )
@@ -60,4 +61,4 @@ def _case(suite: ET.Element, rule: RuleInfo, why: str, items: Sequence[Item]) ->
 
 def _line(item: Item) -> str:
     where = f"{item.where}: " if item.where.path else ""
-    return visible(where) + sentence(item)
+    return printable(where) + sentence(item)

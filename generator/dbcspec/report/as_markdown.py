@@ -15,8 +15,8 @@ from dbcspec.report.texts import (
     plural,
     shortened,
     told,
-    visible,
 )
+from typedcan.shell.printing import printable
 
 _LONGEST_CELL = 300
 _MOST_OPEN = 10
@@ -69,7 +69,7 @@ def to_markdown(report: Report) -> str:
 
 def escaped(text: str) -> str:
     """The text as one line that Markdown shows as it is, fit for a table cell."""
-    plain = shortened(visible(text), _LONGEST_CELL).translate(_ESCAPES)
+    plain = shortened(printable(text), _LONGEST_CELL).translate(_ESCAPES)
     return _MARKS.sub(_disarmed, _LOOSE_UNDERSCORE.sub("&#95;", plain))
 
 

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 from dbcspec.report.item import Item, Report, RuleInfo
 from dbcspec.report.paths import is_absolute, slashed, uri
-from dbcspec.report.texts import MEANINGS, dump, purposes, sentence, visible
+from dbcspec.report.texts import MEANINGS, dump, purposes, sentence
+from typedcan.shell.printing import printable
 
 _LEVELS = {
     "error": "error",
@@ -43,7 +44,7 @@ def _message(text: str) -> str:
 
 
 def _rule(rule: RuleInfo, purpose: str) -> dict[str, object]:
-    described = visible(purpose) or rule.id
+    described = printable(purpose) or rule.id
     return {
         "id": rule.id,
         "shortDescription": {"text": described},
@@ -78,7 +79,7 @@ def _location(item: Item) -> dict[str, object]:
     location: dict[str, object] = {}
     if names:
         location["logicalLocations"] = [
-            {"name": visible(names[-1]), "fullyQualifiedName": visible(".".join(names))}
+            {"name": printable(names[-1]), "fullyQualifiedName": printable(".".join(names))}
         ]
     if path := item.where.path:
         artifact = {"uri": uri(path)}

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dbcspec.report.item import Item, Report
-from dbcspec.report.texts import WHOLE, broken, casualties, counted, grouped, named, told, visible
+from dbcspec.report.texts import WHOLE, broken, casualties, counted, grouped, named, told
+from typedcan.shell.printing import printable
 
 _STYLES = {"error": "1;31", "wire": "1;31", "source": "33", "additive": "32", "cosmetic": "36"}
 _BOLD = "1"
@@ -20,11 +21,11 @@ def to_text(report: Report, *, colour: bool = False, ascii_only: bool = False) -
     ``colour`` adds ANSI sequences; ``ascii_only`` makes arrows of ASCII, for terminals without
     an arrow. A long value is cut; the formats for machines have the whole of it.
     """
-    lines = [_painted(visible(report.title), _BOLD, colour=colour), ""]
+    lines = [_painted(printable(report.title), _BOLD, colour=colour), ""]
     groups = grouped(report.items)
     for group, items in groups.items():
         if len(groups) > 1 or group:
-            lines.append(_painted(visible(group) or WHOLE.capitalize(), _BOLD, colour=colour))
+            lines.append(_painted(printable(group) or WHOLE.capitalize(), _BOLD, colour=colour))
         for item in items:
             lines += _finding(item, colour=colour)
         lines.append("")
@@ -38,8 +39,8 @@ def _finding(item: Item, *, colour: bool) -> Iterator[str]:
     yield f"  {level}{named(item)}{told(item, longest=_LONGEST)}"
     whom = broken(item)
     below = (
-        visible(str(item.where)) if item.where.path else "",
-        visible(item.rule),
+        printable(str(item.where)) if item.where.path else "",
+        printable(item.rule),
         f"breaks {whom}" if whom else "",
         f"[{item.fingerprint}]",
     )

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 from dbcspec.report.as_markdown import escaped
 from dbcspec.report.item import RuleInfo
-from dbcspec.report.texts import dump, visible
+from dbcspec.report.texts import dump
 from typedcan.model.errors import ReadError
+from typedcan.shell.printing import printable
 
 
 def print_rules(rules: Sequence[RuleInfo], format: str) -> str:
@@ -21,7 +22,7 @@ def _text(rules: Sequence[RuleInfo]) -> str:
     names = max((len(rule.id) for rule in rules), default=0)
     levels = max((len(rule.level) for rule in rules), default=0)
     return "".join(
-        f"{rule.id:<{names}}  {rule.level:<{levels}}  {visible(rule.purpose)}\n" for rule in rules
+        f"{rule.id:<{names}}  {rule.level:<{levels}}  {printable(rule.purpose)}\n" for rule in rules
     )
 
 

@@ -1,13 +1,12 @@
-"""What the formats share: text made safe to show, findings by message, sums in words."""
+"""What the formats share: findings by message, sums in words."""
 
 from __future__ import annotations
 
-import json
-import re
 from collections import Counter
 from collections.abc import Sequence
 
 from dbcspec.report.item import LEVELS, Item, Report
+from typedcan.shell.printing import printable, printable_json
 
 WHOLE = "the protocol as a whole"
 """Heading of the findings that belong to no message."""
@@ -21,18 +20,6 @@ MEANINGS = {
 }
 """What a finding of each level means for those who use the protocol."""
 
-# Control characters, line and paragraph separators, marks that reverse the text around them,
-# halves of surrogate pairs: a terminal obeys them, XML forbids them, a reviewer cannot see them.
-_HIDDEN = re.compile(
-    "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
-)
-_SURROGATE = re.compile("[\ud800-\udfff]")
-
-
-def visible(text: str) -> str:
-    r"""The text on one line, each character in it that cannot be seen as its escape, such as \n."""
-    return _HIDDEN.sub(lambda found: repr(found[0])[1:-1], text)
-
 
 def shortened(text: str, longest: int) -> str:
     """The text, cut to ``longest`` characters of which the last three are dots."""
@@ -41,8 +28,7 @@ def shortened(text: str, longest: int) -> str:
 
 def dump(value: object) -> str:
     """JSON of a value, readable, with a newline at the end."""
-    text = json.dumps(value, ensure_ascii=False, indent=2)
-    return _SURROGATE.sub(lambda found: f"\\u{ord(found[0]):04x}", text) + "\n"
+    return printable_json(value, indent=2) + "\n"
 
 
 def plural(count: int, one: str) -> str:
@@ -102,7 +88,7 @@ def casualties(report: Report) -> str:
 
 def told(item: Item, *, longest: int | None = None) -> str:
     """What happened, on one line; text and details are each cut to ``longest`` characters."""
-    parts = [visible(part) for part in (item.text, details(item)) if part] or [""]
+    parts = [printable(part) for part in (item.text, details(item)) if part] or [""]
     if longest is not None:
         parts = [shortened(part, longest) for part in parts]
     return parts[0] if len(parts) == 1 else "{} ({})".format(*parts)
@@ -116,7 +102,7 @@ def sentence(item: Item, *, longest: int | None = None) -> str:
 
 def named(item: Item) -> str:
     """The subject with a colon, "" where the text names it: errors are whole sentences."""
-    return f"{visible(item.subject)}: " if item.subject and item.level != "error" else ""
+    return f"{printable(item.subject)}: " if item.subject and item.level != "error" else ""
 
 
 def purposes(report: Report) -> dict[str, str]:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import can
@@ -25,12 +24,10 @@ from swapcan.conform.live.stage import LEAVING, Left, Stage
 from swapcan.console import CommandError, note
 from swapcan.monitor.recording import Recording
 from swapcan.process_signals import Interrupts
+from typedcan.shell.progress import StatusLine
 
 _DURATION = 60.0
 """Seconds to listen where nothing else is said."""
-
-_REDRAW = 0.2
-"""Seconds between two looks of the line that says how far it is."""
 
 
 def judged_on_bus(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> list[Judged]:
@@ -65,14 +62,14 @@ def _heard(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> Judge
         name = _record_name(given, bus)
         with _recorded(path) as recording:
             note(f"listening on {name} for {seconds:g} s, Ctrl-C ends it early")
-            progress = _Progress(recording)
+            progress = StatusLine()
             try:
                 listen(
                     bus,
                     seconds,
                     _noting(recording, given.channel),
                     is_over=lambda: interrupts.is_over,
-                    watch=progress.update,
+                    watch=partial(_draw, progress, recording),
                 )
             finally:
                 progress.clear()
@@ -122,8 +119,9 @@ def _play(
     recording: Recording,
     channel: str | None,
 ) -> None:
-    progress = _Progress(recording)
-    stage = Stage(bus, is_over=lambda: interrupts.is_over, watch=progress.update)
+    progress = StatusLine()
+    watch = partial(_draw, progress, recording)
+    stage = Stage(bus, is_over=lambda: interrupts.is_over, watch=watch)
     interrupts.at_once = stage.send_safe_codes
     try:
         stage.play(scenario, nodes, _noting(recording, channel))
@@ -193,31 +191,7 @@ def _recorded(path: Path) -> Iterator[Recording]:
         recording.close()
 
 
-class _Progress:
-    """A line with the time left and the frames so far, on a terminal only."""
-
-    def __init__(self, recording: Recording) -> None:
-        self._recording = recording
-        self._shown = bool(sys.stderr) and sys.stderr.isatty()
-        self._next = 0.0
-        self._drawn = 0
-
-    def update(self, passed: float, seconds: float) -> None:
-        """So many seconds have passed, of how many."""
-        now = time.monotonic()
-        if self._shown and now >= self._next:
-            self._next = now + _REDRAW
-            left = max(0.0, seconds - passed)
-            self._draw(f"{left:.0f} s left, frames: {self._recording.frames:,}")
-
-    def clear(self) -> None:
-        """Take the line away."""
-        if self._drawn:
-            self._draw("")
-            self._draw("")
-            self._drawn = 0
-
-    def _draw(self, text: str) -> None:
-        sys.stderr.write("\r" + text.ljust(self._drawn))
-        sys.stderr.flush()
-        self._drawn = len(text)
+def _draw(progress: StatusLine, recording: Recording, passed: float, seconds: float) -> None:
+    """Show the time left and the frames so far."""
+    left = max(0.0, seconds - passed)
+    progress.draw(lambda: f"{left:.0f} s left, frames: {recording.frames:,}")

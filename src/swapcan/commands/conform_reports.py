@@ -22,7 +22,7 @@ from swapcan.conform.report import (
     to_junit,
 )
 from swapcan.conform.text import Language
-from swapcan.console import CommandError, note, say
+from swapcan.console import CommandError, note, say_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,14 +100,13 @@ class Reports:
         """
         judgements = [each.judgement for each in judged]
         if self.json:
-            say(to_json(judgements, self.language).rstrip("\n"))
+            say_text(to_json(judgements, self.language))
         else:
             colour = _has_colours()
             lines = summary(
                 judgements, self.language, colour=colour, verbose=self.verbose, status=status
             )
-            for line in lines:
-                say(line)
+            say_text("\n".join(lines), coloured=colour)
         for kind, path in self.files.items():
             _put(path, self._text(kind, judged))
             note(f"wrote {path}")

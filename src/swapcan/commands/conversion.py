@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +15,7 @@ from swapcan.logs.plan import Mode
 from swapcan.logs.progress import Progress
 from swapcan.logs.raster import raster_step
 from swapcan.logs.window import moment
+from typedcan.shell.printing import printable_json
 
 DAMAGED = 3
 """Exit status: a log is damaged; what comes before the damage was converted."""
@@ -37,7 +37,7 @@ def run(given: argparse.Namespace) -> int:
     finally:
         progress.clear()
     if given.json:
-        say(json.dumps({"output": str(target.path), **summary.as_json()}, ensure_ascii=False))
+        say(printable_json({"output": str(target.path), **summary.as_json()}))
     for line in summary.lines():
         note(line)
     tables = f", tables: {len(summary.rows)}" if target.folder else ""

@@ -79,10 +79,11 @@ def _open(path: Path) -> MessageReader:
     try:
         return can.LogReader(path)
     except _DAMAGE as error:
-        known = ""
-        if path.suffix.lower() not in (*can.io.MESSAGE_READERS, ".gz"):
-            known = f"; known are {', '.join(sorted(can.io.MESSAGE_READERS))}"
-        raise CommandError(f"{path}: cannot be read: {_reason(error)}{known}") from None
+        packed = path.suffix.lower() == ".gz"
+        if (path.with_suffix("") if packed else path).suffix.lower() in can.io.MESSAGE_READERS:
+            raise CommandError(f"{path}: cannot be read: {_reason(error)}") from None
+        known = ", ".join(sorted(can.io.MESSAGE_READERS))
+        raise CommandError(f"{path}: no log of a known kind; known are {known}") from None
 
 
 def _checked(frame: can.Message) -> can.Message:

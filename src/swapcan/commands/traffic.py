@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from swapcan.console import aligned
 from swapcan.messages import MESSAGES
+from typedcan.shell.printing import aligned
 from typedcan.wire.link import Received
 from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from typing import TextIO
 
-_INTERVAL = 0.2
-"""Seconds between two updates."""
+from typedcan.shell.progress import StatusLine
 
 _WIDTH = 24
 
@@ -25,31 +23,17 @@ class Progress:
 
     def __init__(self, total: int, stream: TextIO | None = None) -> None:
         self._total = total
-        self._stream = stream or sys.stderr
-        self._shown = bool(self._stream) and self._stream.isatty()
+        self._line = StatusLine(stream)
         self._start = time.monotonic()
-        self._next = self._start + _INTERVAL
-        self._drawn = 0
 
     def update(self, position: int, frames: int) -> None:
         """So many bytes are read, and so many frames."""
-        now = time.monotonic()
-        if self._shown and now >= self._next:
-            self._next = now + _INTERVAL
-            self._draw(bar(position, self._total, frames, now - self._start))
+        seconds = time.monotonic() - self._start
+        self._line.draw(lambda: bar(position, self._total, frames, seconds))
 
     def clear(self) -> None:
         """Take the line away."""
-        if self._drawn:
-            self._draw("")
-            self._stream.write("\r")
-            self._stream.flush()
-            self._drawn = 0
-
-    def _draw(self, text: str) -> None:
-        self._stream.write("\r" + text.ljust(self._drawn))
-        self._stream.flush()
-        self._drawn = len(text)
+        self._line.clear()
 
 
 def bar(position: int, total: int, frames: int, seconds: float) -> str:

@@ -15,6 +15,7 @@ from swapcan.logs.plan import Reserved
 from swapcan.logs.reserved import reserved_codes
 from swapcan.wire import dbc_text
 from typedcan.model.errors import TypedcanError
+from typedcan.shell.printing import printable
 from typedcan.wire.errors import one_line
 from typedcan.wire.message import Message as OwnMessage
 
@@ -74,9 +75,8 @@ def protocol_of(dbc: Path | None = None) -> Protocol:
     digest = _digest(database)
     if digest == PROTOCOL.digest:
         return _own(database)
-    return Protocol(
-        dbc.stem, digest, database.messages, {}, {}, _periods(database), frozenset(), {}
-    )
+    name = printable(dbc.stem)  # a file's name may hold bytes that are no text
+    return Protocol(name, digest, database.messages, {}, {}, _periods(database), frozenset(), {})
 
 
 def _load(text: str, where: str) -> Database:

@@ -122,7 +122,10 @@ class Stream:
     """
 
     def __init__(self, limit: int) -> None:
-        self._loop = asyncio.get_running_loop()
+        try:
+            self._loop = asyncio.get_running_loop()
+        except RuntimeError:
+            raise RuntimeError("events() is called outside of an event loop") from None
         self._limit = limit
         self._events: deque[Any] = deque()
         self._dropped = 0

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import gc
 import logging
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import cantools.database
+import textparser
 from cantools.database.can import Database
 from cantools.database.errors import UnsupportedDatabaseFormatError
 
@@ -22,7 +22,6 @@ from typedcan.model.protocol import Protocol
 FORMATS = {".dbc": "dbc", ".kcd": "kcd", ".sym": "sym", ".arxml": "arxml"}
 """Ends of file names, in small letters, and what cantools calls the format."""
 
-_WHERE = re.compile(r'Invalid syntax at line (\d+), column (\d+): "?(.*)', re.DOTALL)
 _LONGEST_EXCERPT = 60
 
 # The linter says what is odd in a file; cantools would say it again on standard error.
@@ -119,19 +118,17 @@ def _load(text: str, format_: str, name: str) -> Database:
         database = cantools.database.load_string(text, format_, strict=False, sort_signals=None)
     except UnsupportedDatabaseFormatError as error:
         reason = error.e_dbc or error.e_kcd or error.e_sym or error.e_arxml
-        raise ReadError(_reason(str(reason), text, format_, name)) from None
+        raise ReadError(_reason(reason, text, format_, name)) from None
     if not isinstance(database, Database):
         raise ReadError(f"{name}: describes diagnostics, not CAN messages")
     return database
 
 
-def _reason(reason: str, text: str, format_: str, name: str) -> str:
-    """What cantools says, as one line with its place."""
-    found = _WHERE.match(reason)
-    if not found:
-        return f"{name}: not read as {format_.upper()}: {' '.join(reason.split())}"
-    line = int(found[1])
-    if text.endswith(_END) and line > text.count("\n") - 1:
+def _reason(reason: Exception | None, text: str, format_: str, name: str) -> str:
+    """Why cantools cannot read a text, as one line with its place."""
+    if not isinstance(reason, textparser.ParseError):
+        return f"{name}: not read as {format_.upper()}: {' '.join(str(reason).split())}"
+    if text.endswith(_END) and reason.line > text.count("\n") - 1:
         return f"{name}: the last statement is cut off"
-    excerpt = " ".join(found[3].replace(">>!<<", "").rstrip('"').split())[:_LONGEST_EXCERPT]
-    return f"{Location(name, line, int(found[2]))}: not understood: {excerpt}"
+    excerpt = " ".join(text.split("\n")[reason.line - 1].split())[:_LONGEST_EXCERPT]
+    return f"{Location(name, reason.line, reason.column)}: not understood: {excerpt}"

@@ -134,10 +134,19 @@ class DbcText:
                     f"{self._where(match.start())}: more than {_MOST_MESSAGES} messages"
                 )
             if match[1]:
+                self._refuse_wide_identifier(match)
                 places.append(MessagePlace(int(match[1]), match[2], line))
             elif places:
                 places[-1].signals.append((match[3], line))
         return places
+
+    def _refuse_wide_identifier(self, message: re.Match[str]) -> None:
+        """The highest of 32 bits says that an identifier has 29 bits, not 11."""
+        extended, identifier = divmod(int(message[1]), 1 << 31)
+        bits = 29 if extended else 11
+        if message[2] != UNASSIGNED and (extended > 1 or identifier >> bits):
+            where = self._where(message.start())
+            raise ReadError(f"{where}: {message[2]}: {message[1]} is no identifier of {bits} bits")
 
     def _orphans(self) -> list[tuple[int, int, str]]:
         """Codes and types of signals that are in no message."""

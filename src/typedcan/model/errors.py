@@ -20,6 +20,11 @@ class Location:
 class TypedcanError(Exception):
     """Base of all errors that these packages raise on purpose."""
 
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """What it says, for people, a line each."""
+        return (str(self),)
+
 
 class ReadError(TypedcanError):
     """A file or a configuration cannot be used: one line that says which and why."""

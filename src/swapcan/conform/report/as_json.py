@@ -23,9 +23,7 @@ since the log's begin, ``order`` (number of its first frame, from 0), ``frames``
 
 from __future__ import annotations
 
-import json
 import math
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from numbers import Integral, Real
@@ -37,8 +35,7 @@ from swapcan.conform.judgement import Judgement, RuleResult
 from swapcan.conform.measure.periods import Periods
 from swapcan.conform.report import facts, figures
 from swapcan.conform.text import Language, Text
-
-_SURROGATE = re.compile("[\ud800-\udfff]")
+from typedcan.shell.printing import printable_json
 
 
 def to_json(judgements: Sequence[Judgement], language: Language) -> str:
@@ -51,9 +48,7 @@ def to_json(judgements: Sequence[Judgement], language: Language) -> str:
         "verdict": facts.overall(judgements).name.lower(),
         "logs": [_log(judgement, language) for judgement in judgements],
     }
-    text = json.dumps(document, ensure_ascii=False, indent=1, allow_nan=False)
-    # Names of files may hold bytes that are no text; UTF-8 has no place for them.
-    return _SURROGATE.sub(lambda found: f"\\u{ord(found[0]):04x}", text) + "\n"
+    return printable_json(document, indent=1) + "\n"
 
 
 def _log(judgement: Judgement, language: Language) -> dict[str, Any]:

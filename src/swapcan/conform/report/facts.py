@@ -8,10 +8,10 @@ from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
 from swapcan.conform.measure.load import Load
 from swapcan.conform.report import words
-from swapcan.conform.report.visible import visible
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.text import Language
 from swapcan.conform.tolerance import Tolerance
+from typedcan.shell.printing import printable
 
 _GRAVEST = (Verdict.VIOLATES, Verdict.NOT_JUDGED, Verdict.CONFORMS)
 
@@ -56,7 +56,7 @@ def why(judgement: Judgement, language: Language) -> str:
 
 def says(found: Occurrence, language: Language) -> str:
     """What is wrong, on one line."""
-    return visible(found.says(language))
+    return printable(found.says(language))
 
 
 def found(result: RuleResult, language: Language) -> str:
@@ -81,4 +81,4 @@ def by_status(judgement: Judgement, status: Status) -> str:
 
 def channel(load: Load, language: Language) -> str:
     """The name of a bus."""
-    return visible(load.channel) or words.NO_CHANNEL.within(language)
+    return printable(load.channel) or words.NO_CHANNEL.within(language)

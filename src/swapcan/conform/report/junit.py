@@ -9,9 +9,9 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
 from swapcan.conform.report import facts, figures, words
-from swapcan.conform.report.visible import visible
 from swapcan.conform.rule import Severity
 from swapcan.conform.text import Language
+from typedcan.shell.printing import printable
 
 _SHOWN = 100
 """Occurrences of a rule that are listed."""
@@ -42,10 +42,10 @@ def to_junit(judgements: Sequence[Judgement], language: Language, *, strict: boo
 
 
 def _suite(judgement: Judgement, language: Language, failing: Severity) -> ET.Element:
-    suite = ET.Element("testsuite", {"name": visible(judgement.log)})
+    suite = ET.Element("testsuite", {"name": printable(judgement.log)})
     properties = ET.SubElement(suite, "properties")
     for name, value in _properties(judgement, language):
-        ET.SubElement(properties, "property", {"name": name, "value": visible(value)})
+        ET.SubElement(properties, "property", {"name": name, "value": printable(value)})
     cases = [_judged(judgement, language)]
     cases += [_case(result, language, failing) for result in judgement.results]
     suite.extend(cases)
@@ -83,7 +83,7 @@ def _judged(judgement: Judgement, language: Language) -> ET.Element:
     if judgement.verdict is Verdict.NOT_JUDGED:
         problems.append(facts.why(judgement, language))
     if problems:
-        message = visible("; ".join(problems))
+        message = printable("; ".join(problems))
         ET.SubElement(case, "error", {"message": message, "type": "not_judged"})
     return case
 
@@ -96,13 +96,13 @@ def _case(result: RuleResult, language: Language, failing: Severity) -> ET.Eleme
     message = f"{result.rule.title.within(language)} ({result.rule.clause})"
     if result.status is Status.NOT_JUDGED:
         text = words.NOTHING_TO_JUDGE.within(language)
-        ET.SubElement(case, "skipped", {"message": visible(text)})
+        ET.SubElement(case, "skipped", {"message": printable(text)})
     elif result.count and severity >= failing:
         heading = f"{message}{words.COLON.within(language)}{facts.found(result, language)}"
-        attributes = {"message": visible(heading), "type": severity.name.lower()}
+        attributes = {"message": printable(heading), "type": severity.name.lower()}
         ET.SubElement(case, "failure", attributes).text = _lines(result, language)
     elif result.count:
-        ET.SubElement(case, "system-out").text = f"{visible(message)}\n{_lines(result, language)}"
+        ET.SubElement(case, "system-out").text = f"{printable(message)}\n{_lines(result, language)}"
     return case
 
 
@@ -115,6 +115,6 @@ def _lines(result: RuleResult, language: Language) -> str:
 
 
 def _line(found: Occurrence, language: Language) -> str:
-    subject = visible(f"{found.subject.node} {found.subject}".rstrip())
+    subject = printable(f"{found.subject.node} {found.subject}".rstrip())
     colon = words.COLON.within(language)
     return f"{figures.seconds(found.start)} {subject}{colon}{facts.says(found, language)}"

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult
 from swapcan.conform.report import facts, figures
-from swapcan.conform.report.visible import visible
 from swapcan.conform.text import Language
+from typedcan.shell.printing import printable
 
 COLUMNS = (
     "log",
@@ -72,5 +72,5 @@ def _figures(begin: float, found: Occurrence) -> list[str]:
 
 
 def _cell(text: str) -> str:
-    seen = visible(text)
+    seen = printable(text)
     return f"'{seen}" if seen.startswith(_FORMULA) else seen

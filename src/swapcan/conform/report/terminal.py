@@ -9,9 +9,9 @@ from collections.abc import Iterator, Sequence
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
 from swapcan.conform.report import facts, figures, words
-from swapcan.conform.report.visible import visible
 from swapcan.conform.rule import Severity
 from swapcan.conform.text import Language, Text
+from typedcan.shell.printing import printable
 
 _WIDTH = 100
 """Columns of a line."""
@@ -84,7 +84,7 @@ class _Writer:
     def _head(self, judgement: Judgement) -> Iterator[str]:
         verdict = self._in(words.VERDICTS[judgement.verdict])
         painted = self._paint(verdict, _BOLD, _VERDICT_COLOURS[judgement.verdict])
-        yield f"{painted}{self._colon}{visible(judgement.log)}"
+        yield f"{painted}{self._colon}{printable(judgement.log)}"
         yield from self._wrapped(facts.why(judgement, self._language), "  ", "  ")
         comma = self._in(words.COMMA)
         frames = figures.count(sum(judgement.frames.values()))
@@ -98,19 +98,19 @@ class _Writer:
             text = self._in(words.UNSEEN).format(nodes=comma.join(missing))
             yield from self._wrapped(text, "  ", "    ")
         for line in judgement.damage:
-            damage = f"{self._in(words.DAMAGE)}{self._colon}{visible(line)}"
+            damage = f"{self._in(words.DAMAGE)}{self._colon}{printable(line)}"
             yield from self._wrapped(damage, "  ", "    ")
 
     def _result(self, result: RuleResult) -> Iterator[str]:
         rule = result.rule
         severity = self._in(words.SEVERITIES[rule.severity])
         painted = self._paint(severity, _BOLD, _SEVERITY_COLOURS[rule.severity])
-        title = visible(self._in(rule.title))
+        title = printable(self._in(rule.title))
         yield f"  {painted}  {self._paint(rule.id, _BOLD)}{self._colon}{title}"
-        found = f"{facts.found(result, self._language)} ({visible(rule.clause)})"
+        found = f"{facts.found(result, self._language)} ({printable(rule.clause)})"
         yield from self._wrapped(found, "    ", "      ")
         if self._verbose:
-            yield from self._wrapped(visible(self._in(rule.purpose)), "    ", "    ")
+            yield from self._wrapped(printable(self._in(rule.purpose)), "    ", "    ")
         for label, occurrence in (
             (words.FIRST, result.first),
             (words.WORST, facts.other_worst(result)),
@@ -120,7 +120,7 @@ class _Writer:
 
     def _occurrence(self, label: Text, found: Occurrence) -> Iterator[str]:
         start = figures.seconds(found.start)
-        subject = visible(f"{found.subject.node} {found.subject}".rstrip())
+        subject = printable(f"{found.subject.node} {found.subject}".rstrip())
         said = facts.says(found, self._language)
         text = f"{self._in(label)} {start}  {subject}{self._colon}{said}"
         yield from self._wrapped(text, "    ", "      ")

@@ -21,6 +21,7 @@ from swapcan.logs.plot.track import Track
 from swapcan.logs.protocol import Protocol
 from swapcan.logs.read import LogSource, open_log
 from swapcan.logs.window import Moment, within
+from typedcan.shell.printing import printable
 
 _ABSOLUTE = 1e8
 """Time stamps from here on count from 1970."""
@@ -98,7 +99,7 @@ def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> P
         damage = log.damage
     curves, bands, heats = collection.finish()
     return Plot(
-        title=path.name,
+        title=printable(path.name),
         begin=clock.origin if clock.origin >= _ABSOLUTE else None,
         start=clock.start,
         end=max(clock.end, clock.start),

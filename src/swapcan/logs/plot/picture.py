@@ -11,6 +11,7 @@ import numpy as np
 from swapcan.logs.plot.html import notes
 from swapcan.logs.plot.model import GAP_PERIODS, Band, Curve, Heat, Mark, Plot, Spans
 from typedcan.model.errors import TypedcanError
+from typedcan.shell.printing import printable
 
 _WIDTH, _DPI = 12.0, 150
 _CURVE_HEIGHT, _BAND_HEIGHT, _HEAT_HEIGHT = 1.8, 0.32, 2.6
@@ -125,7 +126,8 @@ def _draw_bands(axis: Any, bands: tuple[Band, ...], seconds: float) -> None:
     count = len(bands)
     for place, band in enumerate(bands):
         bottom = count - place - 0.9
-        for number, (_, label, spans) in enumerate(band.states):
+        for number, (_, named, spans) in enumerate(band.states):
+            label = printable(named)
             colour = _COLOURS[(number - 1) % len(_COLOURS)] if number else "#9ba1a9"
             pieces = [(begin, end - begin) for begin, end in spans.tolist()]
             axis.broken_barh(
@@ -181,7 +183,7 @@ def _draw_heat(figure: Any, axis: Any, heat: Heat) -> None:
     bar = figure.colorbar(mesh, ax=axis, pad=0.01, fraction=0.03, extend=extend)
     bar.set_label(_unit(heat.unit), fontsize=8)
     bar.ax.tick_params(labelsize=7)
-    axis.set_title(heat.title, loc="left", fontsize=8, parse_math=False)
+    axis.set_title(printable(heat.title), loc="left", fontsize=8, parse_math=False)
 
 
 def _extreme(heat: Heat) -> Any:
@@ -203,8 +205,8 @@ def _edges(heat: Heat, values: Any) -> tuple[Any, Any]:
 
 def _plain(text: str) -> str:
     """A label as it is: matplotlib leaves out of legends what begins with an underscore."""
-    return text.lstrip("_").replace("$", r"\$")
+    return printable(text).lstrip("_").replace("$", r"\$")
 
 
 def _unit(unit: str) -> str:
-    return "°C" if unit == "degC" else unit.replace("$", r"\$")
+    return "°C" if unit == "degC" else printable(unit).replace("$", r"\$")

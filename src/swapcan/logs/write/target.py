@@ -139,6 +139,10 @@ def _sink(target: Target, draft: Path, schemas: dict[str, pa.Schema]) -> Sink:
 
 def _check(target: Target, *, force: bool) -> None:
     path = target.path
+    try:
+        str(path).encode()  # pyarrow opens no other
+    except UnicodeEncodeError:
+        raise OutputError(f"{path}: the name is no text, choose another") from None
     if not path.exists():
         return
     if target.folder and path.is_dir():

@@ -10,6 +10,8 @@ from textual.containers import Horizontal
 from textual.message import Message
 from textual.widgets import Input, Label
 
+from typedcan.shell.printing import printable
+
 KEYS = "q quit  / filter  space pause  Tab pane  s sort  r record  c clear  h help"
 
 
@@ -56,7 +58,7 @@ class Prompt(Horizontal):
     def say(self, text: str) -> None:
         """Show a remark, or the keys where it is empty."""
         if not self.is_asking:
-            self._label.update(text or KEYS)
+            self._label.update(printable(text) or KEYS)
 
     def ask(self, name: str, label: str, text: str) -> None:
         """Ask for a text; `Answered` tells what was answered."""

@@ -13,6 +13,7 @@ from swapcan.monitor.picture import Picture
 from swapcan.monitor.rows import LATE, LOST
 from swapcan.monitor.session import Status
 from swapcan.monitor.view.styles import ALERT, WARNING
+from typedcan.shell.printing import printable
 
 _GAP = "  "
 
@@ -36,7 +37,7 @@ def panes_line(panes: Sequence[str], current: str, bus: str) -> Content:
             )
             for number, pane in enumerate(panes, 1)
         ),
-        f"{_GAP}{bus}",
+        f"{_GAP}{printable(bus)}",
     )
 
 
@@ -44,12 +45,12 @@ def status_line(picture: Picture, status: Status, shown: Shown) -> Text:
     """What is not as usual first, so that a narrow terminal has it too."""
     parts: list[Text] = []
     if status.bus_lost:
-        parts.append(Text(f" bus lost: {status.bus_lost} ", ALERT))
+        parts.append(Text(f" bus lost: {printable(status.bus_lost)} ", ALERT))
     if shown.is_paused:
         behind = status.frames - picture.totals.frames
         parts.append(Text(f" PAUSED, {max(behind, 0)} frames since ", WARNING))
     if status.recording:
-        parts.append(Text(f" REC {status.recording.name} {status.recorded} ", WARNING))
+        parts.append(Text(f" REC {printable(status.recording.name)} {status.recorded} ", WARNING))
     parts.append(Text(_rates(picture)))
     parts += [Text(f"{name} {text}") for name, text in _choices(shown)]
     return Text(_GAP).join(parts)

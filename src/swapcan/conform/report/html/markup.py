@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from collections.abc import Sequence
 
-from swapcan.conform.report.visible import visible
+from typedcan.shell.printing import printable
 
 
 class Markup(str):
@@ -25,7 +25,7 @@ def element(tag: str, *children: str, **attributes: str | None) -> Markup:
         By name, ``_`` at its end left out and elsewhere ``-``; None: left out.
     """
     given = "".join(
-        f' {name.rstrip("_").replace("_", "-")}="{html.escape(visible(value))}"'
+        f' {name.rstrip("_").replace("_", "-")}="{html.escape(printable(value))}"'
         for name, value in attributes.items()
         if value is not None
     )
@@ -43,7 +43,7 @@ def lines(*parts: str) -> Markup:
 
 
 def _escaped(part: str) -> str:
-    return part if isinstance(part, Markup) else html.escape(visible(part))
+    return part if isinstance(part, Markup) else html.escape(printable(part))
 
 
 def table(
