@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from dbcspec.compare.approvals import APPROVAL_USED, Approval, apply_approvals, read_approvals
-from dbcspec.report.item import Item
 from typedcan.model.errors import Location, ReadError
+from typedcan.report.item import Item
 
 FACTOR = Item(
     rule="signal-scale-same",

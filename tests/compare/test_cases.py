@@ -19,9 +19,9 @@ from dbcspec.compare.registry import PROMISES
 from dbcspec.compare.run import RULES, compare
 from dbcspec.config import Config
 from dbcspec.project import load
-from dbcspec.report.item import LEVELS, Item
 from typedcan.databases.dbc import read_dbc
 from typedcan.model.protocol import Protocol
+from typedcan.report.item import LEVELS, Item
 
 CASES = Path(__file__).with_name("cases")
 

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from dbcspec.compare.registry import PROMISES
 from dbcspec.compare.run import compare, worst
-from dbcspec.report.item import LEVELS
 from typedcan.model import protocol as model
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Aspect, Protocol
+from typedcan.report.item import LEVELS
 
 PLACES_OF = {
     Aspect.PERIODS: ("Message.period", "Message.send_type"),

@@ -12,8 +12,8 @@ import pytest
 from dbcspec.compare.run import compare
 from dbcspec.config import Config
 from dbcspec.project import load
-from dbcspec.report.item import Item
 from typedcan.model.protocol import Aspect, Protocol
+from typedcan.report.item import Item
 
 BASE = Path(__file__).with_name("cases") / "bus-present" / "previous"
 ACTS = "acts:\n  - {signal: LAMP, codes: [15], safe: 0, cite: here}\nrequests:"

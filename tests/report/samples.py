@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dbcspec.report.item import Item, Report, RuleInfo
 from typedcan.model.errors import Location
+from typedcan.report.item import Item, Report, RuleInfo
 
 HOSTILE = (
     "plain",

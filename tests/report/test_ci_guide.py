@@ -11,9 +11,9 @@ import pytest
 import yaml
 
 from dbcspec.compare.approvals import read_approvals
-from dbcspec.report.formats import FORMATS
-from dbcspec.report.item import LEVELS
-from dbcspec.report.texts import MEANINGS
+from typedcan.report.formats import FORMATS
+from typedcan.report.item import LEVELS
+from typedcan.report.texts import MEANINGS
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "ci.md").read_text("utf-8")

@@ -11,10 +11,10 @@ import xml.etree.ElementTree as ET
 import pytest
 from report.samples import EMPTY, HOSTILE, LINT, PLAIN, RULES, hostile, item
 
-from dbcspec.report.formats import FORMATS, render
-from dbcspec.report.item import Report
-from dbcspec.report.rules import RULE_FORMATS, print_rules
 from typedcan.model.errors import ReadError
+from typedcan.report.formats import FORMATS, render
+from typedcan.report.item import Report
+from typedcan.report.rules import RULE_FORMATS, print_rules
 
 every_format = pytest.mark.parametrize("format", FORMATS)
 

@@ -7,9 +7,9 @@ import re
 import pytest
 from report.samples import EMPTY, HOSTILE, PLAIN, RULES, hostile, item
 
-from dbcspec.report.formats import render
-from dbcspec.report.item import Report
 from typedcan.model.errors import Location
+from typedcan.report.formats import render
+from typedcan.report.item import Report
 
 COMMAND = re.compile(r"::(?P<name>\w+)(?: (?P<properties>[^:]*))?::(?P<data>.*)")
 PROPERTIES = {"%0D": "\r", "%0A": "\n", "%3A": ":", "%2C": ",", "%25": "%"}

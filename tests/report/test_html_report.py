@@ -9,8 +9,8 @@ import html5lib
 import pytest
 from report.samples import EMPTY, HOSTILE, PLAIN, RULES, hostile, item
 
-from dbcspec.report.formats import render
-from dbcspec.report.item import Item, Report
+from typedcan.report.formats import render
+from typedcan.report.item import Item, Report
 
 
 def page(report: Report) -> Element:

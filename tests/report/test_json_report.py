@@ -12,9 +12,9 @@ import jsonschema
 import pytest
 from report.samples import EMPTY, HOSTILE, LINT, PLAIN, RULES, hostile, item
 
-from dbcspec.report.formats import render
-from dbcspec.report.item import Report
 from typedcan.model.errors import Location
+from typedcan.report.formats import render
+from typedcan.report.item import Report
 
 every_report = pytest.mark.parametrize(
     "report", [PLAIN, EMPTY, LINT, hostile()], ids=("plain", "empty", "lint", "hostile")
@@ -32,7 +32,7 @@ def schema(package: str, path: str) -> Any:
 @every_report
 def test_json_has_the_documented_shape_and_every_field_unchanged(report: Report) -> None:
     document = parsed(report, "json")
-    jsonschema.Draft202012Validator(schema("dbcspec.report", "report.schema.json")).validate(
+    jsonschema.Draft202012Validator(schema("typedcan.report", "report.schema.json")).validate(
         document
     )
     assert document["title"] == report.title
@@ -44,7 +44,7 @@ def test_json_has_the_documented_shape_and_every_field_unchanged(report: Report)
 
 
 def test_the_documented_shape_refuses_another() -> None:
-    validator = jsonschema.Draft202012Validator(schema("dbcspec.report", "report.schema.json"))
+    validator = jsonschema.Draft202012Validator(schema("typedcan.report", "report.schema.json"))
     document = parsed(PLAIN, "json")
     del document["findings"][0]["fingerprint"]
     assert not validator.is_valid(document)

@@ -6,8 +6,8 @@ import pytest
 from junitparser import Failure, JUnitXml, TestCase, TestSuite
 from report.samples import EMPTY, HOSTILE, PLAIN, RULES, hostile, item
 
-from dbcspec.report.formats import render
-from dbcspec.report.item import Report
+from typedcan.report.formats import render
+from typedcan.report.item import Report
 
 
 def cases(report: Report) -> list[TestCase]:

@@ -9,9 +9,9 @@ import pytest
 from markdown_it import MarkdownIt
 from report.samples import EMPTY, HOSTILE, LINT, PLAIN, RULES, hostile, item
 
-from dbcspec.report.formats import render
-from dbcspec.report.item import Report
-from dbcspec.report.rules import print_rules
+from typedcan.report.formats import render
+from typedcan.report.item import Report
+from typedcan.report.rules import print_rules
 
 ALLOWED = {"h3", "h4", "p", "strong", "table", "thead", "tbody", "tr", "th", "td"}
 FOLDING = {"details", "summary", "b"}

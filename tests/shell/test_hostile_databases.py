@@ -12,7 +12,7 @@ from generator.small_spec import edited, write_project
 from shell.hostile import NAME, esc_dbc, hidden, needs_any_file_name, printed
 from shell.terminal import in_terminal
 
-from dbcspec.report.formats import FORMATS
+from typedcan.report.formats import FORMATS
 
 SHOWN = r"\x1b]0;PWN\x07\x1b[2J"
 """What is to be seen of the texts in the DBC."""

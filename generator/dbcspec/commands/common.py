@@ -13,9 +13,9 @@ from dbcspec.config import find_config
 from dbcspec.errors import FindingsError
 from dbcspec.project import Project, load
 from dbcspec.read.doors import open_side
-from dbcspec.report.formats import FORMATS, render
-from dbcspec.report.item import Report
 from typedcan.model.protocol import Protocol
+from typedcan.report.formats import FORMATS, render
+from typedcan.report.item import Report
 from typedcan.shell.printing import print_text
 
 

@@ -10,7 +10,7 @@ from dbcspec.compare.approvals import APPROVAL_USED, apply_approvals, read_appro
 from dbcspec.compare.promise import Class
 from dbcspec.compare.run import RULES, compare, worst
 from dbcspec.read.doors import open_side
-from dbcspec.report.item import LEVELS, Report
+from typedcan.report.item import LEVELS, Report
 
 
 def add(commands: Commands) -> None:

@@ -21,10 +21,10 @@ from dbcspec.lint.options import Options
 from dbcspec.lint.rule import Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.read.doors import open_side
-from dbcspec.report.item import Report
-from dbcspec.report.rules import print_rules
 from typedcan.databases.encoding import read_encoded
 from typedcan.model.errors import ReadError
+from typedcan.report.item import Report
+from typedcan.report.rules import print_rules
 from typedcan.shell.printing import print_remark, print_text
 
 

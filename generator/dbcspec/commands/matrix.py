@@ -19,9 +19,9 @@ from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.spec import emit_spec
 from dbcspec.read.doors import open_side
 from dbcspec.read.matrix import read_matrix
-from dbcspec.report.item import Report
 from dbcspec.write_spec import propose_spec
 from typedcan.model.errors import ReadError
+from typedcan.report.item import Report
 from typedcan.shell.printing import print_line, print_remark
 
 

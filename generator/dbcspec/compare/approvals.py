@@ -19,8 +19,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from dbcspec.report.item import Item, RuleInfo
 from typedcan.model.errors import Location, ReadError
+from typedcan.report.item import Item, RuleInfo
 
 APPROVAL_USED = RuleInfo("approval-used", "An approval accepts a finding that is there.", "error")
 """The rule over approvals themselves."""

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from dbcspec.compare.pairing import Pairing, pair
 from dbcspec.compare.promise import Change, Promise
 from dbcspec.compare.registry import PROMISES
-from dbcspec.report.item import LEVELS, Item, RuleInfo
 from typedcan.model.protocol import Protocol
+from typedcan.report.item import LEVELS, Item, RuleInfo
 
 RULES: tuple[RuleInfo, ...] = tuple(
     RuleInfo(promise.id, promise.purpose, promise.class_.word) for promise in PROMISES

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from dbcspec.lint.registry import ALL_RULES
 from dbcspec.lint.rule import Finding, Rule
-from dbcspec.report.item import Item, RuleInfo
+from typedcan.report.item import Item, RuleInfo
 
 LEVEL = "error"
 """The level of every finding."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from dbcspec.report.item import Item, Report, RuleInfo
-from dbcspec.report.paths import is_absolute, slashed, uri
-from dbcspec.report.texts import MEANINGS, dump, purposes, sentence
+from typedcan.report.item import Item, Report, RuleInfo
+from typedcan.report.paths import is_absolute, slashed, uri
+from typedcan.report.texts import MEANINGS, dump, purposes, sentence
 from typedcan.shell.printing import printable
 
 _LEVELS = {

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from dbcspec.report.item import Item, Report
-from dbcspec.report.texts import (
+from typedcan.report.item import Item, Report
+from typedcan.report.texts import (
     WHOLE,
     broken,
     casualties,

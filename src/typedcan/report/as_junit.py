@@ -5,9 +5,9 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
-from dbcspec.report.item import Item, Report, RuleInfo
-from dbcspec.report.paths import slashed
-from dbcspec.report.texts import gravest, plural, purposes, sentence
+from typedcan.report.item import Item, Report, RuleInfo
+from typedcan.report.paths import slashed
+from typedcan.report.texts import gravest, plural, purposes, sentence
 from typedcan.shell.printing import printable
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dbcspec.report.item import LEVELS, Item, Report
-from dbcspec.report.texts import dump
+from typedcan.report.item import LEVELS, Item, Report
+from typedcan.report.texts import dump
 
 VERSION = 1
 """Rises when a reader of the shape must change; new keys alone do not raise it."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dbcspec.report.item import LEVELS, Item, Report
-from dbcspec.report.paths import slashed
-from dbcspec.report.texts import sentence
+from typedcan.report.item import LEVELS, Item, Report
+from typedcan.report.paths import slashed
+from typedcan.report.texts import sentence
 from typedcan.shell.printing import printable
 
 COMMANDS = {

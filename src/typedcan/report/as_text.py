@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.report.item import Item, Report
-from dbcspec.report.texts import WHOLE, broken, casualties, counted, grouped, named, told
+from typedcan.report.item import Item, Report
+from typedcan.report.texts import WHOLE, broken, casualties, counted, grouped, named, told
 from typedcan.shell.printing import printable
 
 _STYLES = {"error": "1;31", "wire": "1;31", "source": "33", "additive": "32", "cosmetic": "36"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from dbcspec.report.item import LEVELS, Item, Report
+from typedcan.report.item import LEVELS, Item, Report
 from typedcan.shell.printing import printable, printable_json
 
 WHOLE = "the protocol as a whole"

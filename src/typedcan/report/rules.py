@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from dbcspec.report.as_markdown import escaped
-from dbcspec.report.item import RuleInfo
-from dbcspec.report.texts import dump
 from typedcan.model.errors import ReadError
+from typedcan.report.as_markdown import escaped
+from typedcan.report.item import RuleInfo
+from typedcan.report.texts import dump
 from typedcan.shell.printing import printable
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 
-from dbcspec.report.item import Item, Report
-from dbcspec.report.paths import slashed
-from dbcspec.report.texts import dump, sentence
+from typedcan.report.item import Item, Report
+from typedcan.report.paths import slashed
+from typedcan.report.texts import dump, sentence
 
 _SEVERITIES = {
     "error": "major",

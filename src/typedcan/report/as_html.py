@@ -6,8 +6,8 @@ from functools import cache
 
 import jinja2
 
-from dbcspec.report.item import LEVELS, Report
-from dbcspec.report.texts import (
+from typedcan.report.item import LEVELS, Report
+from typedcan.report.texts import (
     MEANINGS,
     WHOLE,
     broken,
@@ -23,7 +23,7 @@ from typedcan.shell.printing import printable
 @cache
 def _template() -> jinja2.Template:
     environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("dbcspec.report", "templates"),
+        loader=jinja2.PackageLoader("typedcan.report", "templates"),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

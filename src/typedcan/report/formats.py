@@ -5,16 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from dbcspec.report.as_github import to_github
-from dbcspec.report.as_gitlab import to_gitlab
-from dbcspec.report.as_html import to_html
-from dbcspec.report.as_json import to_json
-from dbcspec.report.as_junit import to_junit
-from dbcspec.report.as_markdown import to_markdown
-from dbcspec.report.as_sarif import to_sarif
-from dbcspec.report.as_text import to_text
-from dbcspec.report.item import Report
 from typedcan.model.errors import ReadError
+from typedcan.report.as_github import to_github
+from typedcan.report.as_gitlab import to_gitlab
+from typedcan.report.as_html import to_html
+from typedcan.report.as_json import to_json
+from typedcan.report.as_junit import to_junit
+from typedcan.report.as_markdown import to_markdown
+from typedcan.report.as_sarif import to_sarif
+from typedcan.report.as_text import to_text
+from typedcan.report.item import Report
 
 FORMATS: Mapping[str, Callable[[Report], str]] = {
     "text": to_text,
