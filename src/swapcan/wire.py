@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from importlib import resources
 
 import can
 
@@ -68,7 +69,8 @@ def decode(frame_id: int, data: bytes, *, verify: bool = True) -> Message:
 
 def dbc_text() -> str:
     """The text of the DBC of the standard."""
-    return databases.dbc_text(PROTOCOL)
+    package = resources.files("swapcan._generated")
+    return package.joinpath(f"{PROTOCOL.name}.dbc").read_text("ascii")
 
 
 def message_type(name: str) -> type[Message]:

@@ -15,7 +15,7 @@ from cantools.database.can import Database
 from dbcspec.emit.foreign import foreign_artifacts
 from swapcan import EncodeError
 from typedcan.databases.dbc import read_dbc
-from typedcan.wire.packing import Packer
+from typedcan.wire.packing import packer_of
 
 WIDE = """VERSION ""
 
@@ -58,7 +58,7 @@ def raw(message: Any, signal: str) -> object:
     database = cantools.database.load_string(WIDE, "dbc")
     assert isinstance(database, Database)
     reader = database.get_message_by_name("Wide")
-    data = Packer(reader).pack(message.to_raw())
+    data = packer_of(message.MODEL).pack(message.to_raw())
     return reader.decode_simple(data, decode_choices=False, scaling=False)[signal]
 
 

@@ -26,7 +26,7 @@ from swapcan import messages as m
 from swapcan.messages import MESSAGES
 from typedcan.model.protocol import Protocol, ValueTable
 from typedcan.wire.message import Code2, Code5
-from typedcan.wire.packing import Packer
+from typedcan.wire.packing import packer_of
 
 PACKAGES = {"othercar": OTHER, "plaincar": PLAIN}
 
@@ -184,7 +184,7 @@ def test_the_decoders_of_another_protocol_agree_with_another_reader(other: Modul
         ("7F F0 00 01 00 42 00 00", (125.4375, 0.0, 0, 1, 66, 0, 0)),
     ):
         wheels, decode = by_name["Wheels"]
-        packer = Packer(dbc.get_message_by_name("Wheels"))
+        packer = packer_of(wheels.MODEL)
         decoded = decode(packer.unpack(bytes.fromhex(payload)))
         assert isinstance(decoded, wheels)
         assert tuple(getattr(decoded, name) for name in wheels.FIELDS) == expected
@@ -200,7 +200,7 @@ def test_the_messages_of_another_protocol_give_the_bytes_worked_out_by_hand(
     kinds = {kind.NAME: kind for kind in other.DECODERS}
 
     def payload(name: str, **values: object) -> str:
-        packer = Packer(dbc.get_message_by_name(name))
+        packer = packer_of(kinds[name].MODEL)
         return packer.pack(kinds[name](**values).to_raw()).hex(" ").upper()
 
     # (-2.5625 + 2.5) / 0.0625 = -1 = FFF; the gear starts at its start value 7.

@@ -24,7 +24,7 @@ from dbcspec.emit.foreign import foreign_artifacts
 from swapcan import EncodeError
 from typedcan.databases.dbc import read_dbc
 from typedcan.wire.message import FloatField
-from typedcan.wire.packing import Packer
+from typedcan.wire.packing import packer_of
 
 LARGEST = {32: Fraction(2**128 - 2**104), 64: Fraction(2**1024 - 2**971)}
 """Of the floats of so many bits."""
@@ -68,7 +68,7 @@ def expected(signal: Signal, limits: tuple[Fraction, Fraction], value: object) -
 
 def in_frame(reader: CantoolsMessage, signal: Signal, message: Any) -> float:
     """What cantools finds in the frame, before scaling."""
-    data = Packer(reader).pack(message.to_raw())
+    data = packer_of(message.MODEL).pack(message.to_raw())
     raw = reader.decode_simple(data, decode_choices=False, scaling=False)[signal.name]
     assert isinstance(raw, float)
     return raw

@@ -11,10 +11,18 @@ import numpy as np
 import pytest
 
 from swapcan import EncodeError, SignalState
+from typedcan.model.protocol import Signal
 from typedcan.wire.message import FloatField
 
 FLOAT = FloatField(
-    name="ratio", dbc_name="Ratio", title="", length=32, factor=0.5, minimum=-1e39, maximum=1e39
+    signal=Signal(name="Ratio", start=0, length=32, minimum=Decimal(0), maximum=Decimal(1)),
+    name="ratio",
+    dbc_name="Ratio",
+    title="",
+    length=32,
+    factor=0.5,
+    minimum=-1e39,
+    maximum=1e39,
 )
 
 

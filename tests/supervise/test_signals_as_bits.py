@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
+
 import cantools
 import pytest
 from cantools.database.can import Database
@@ -16,6 +18,7 @@ from swapcan.supervise.bit_places import bit_places, byte_order
 from swapcan.supervise.right_codes import right_codes
 from swapcan.supervise.signal_watch import WatchedField, watched_fields
 from swapcan.supervise.tracked_message import TrackedMessage
+from typedcan.model.protocol import Signal
 from typedcan.wire.message import PhysicalField, SignalState
 
 DATABASE = cantools.database.load_string(swapcan.dbc_text(), "dbc")
@@ -61,6 +64,7 @@ def test_an_ordinary_value_needs_no_decoding(field: WatchedField) -> None:
 def test_the_lowest_values_that_are_right_are_let_pass() -> None:
     """Raw 0 to 1000 without 300 and 301: those below."""
     field = PhysicalField(
+        signal=Signal(name="X", start=0, length=12, minimum=Decimal(0), maximum=Decimal(1000)),
         name="x",
         dbc_name="X",
         title="",

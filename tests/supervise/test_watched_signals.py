@@ -1,5 +1,7 @@
 """Signals that say something is wrong, told when that begins and when it ends."""
 
+from decimal import Decimal
+
 import cantools
 import pytest
 from cantools.database.can import Database
@@ -15,6 +17,7 @@ from swapcan.messages import (
 )
 from swapcan.supervise import SignalChanged, SupervisionEvent, Supervisor
 from swapcan.supervise.signal_watch import judge_of
+from typedcan.model.protocol import Signal
 from typedcan.wire.message import PhysicalField, SignalState
 
 
@@ -82,7 +85,14 @@ def test_a_value_beyond_the_printed_range_is_out_of_range(raw: int, is_outside: 
 
 def test_the_last_value_of_a_range_is_in_it_though_its_float_is_not() -> None:
     field = PhysicalField(
-        name="x", dbc_name="X", title="", length=3, factor=0.1, minimum=0.0, maximum=0.3
+        signal=Signal(name="X", start=0, length=3, minimum=Decimal(0), maximum=Decimal("0.3")),
+        name="x",
+        dbc_name="X",
+        title="",
+        length=3,
+        factor=0.1,
+        minimum=0.0,
+        maximum=0.3,
     )
     judge = judge_of(field)
     assert judge

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dbcspec.emit.stub_docs import quote
 from typedcan.model.protocol import Message, Protocol, Signal
 
 _LONGEST_LINE = 100
@@ -60,30 +59,6 @@ def called(target: str, function: str, arguments: str) -> str:
     """An assignment of what a function returns, at the beginning of a line."""
     line = f"{target} = {function}({arguments})"
     return line if len(line) <= _LONGEST_LINE else f"{target} = {function}(\n    {arguments}\n)"
-
-
-def selected(message: Message) -> list[str]:
-    """The entries of a message's table of branches: field, its selector, the selecting values."""
-    names = {signal.name: signal.python_name for signal in message.signals}
-    return [
-        _selected(quote(signal.python_name), quote(names[signal.multiplexer]), signal.selectors)
-        for signal in message.signals
-        if signal.multiplexer in names
-    ]
-
-
-def _selected(field: str, selector: str, values: tuple[int, ...]) -> str:
-    line = f"        {field}: ({selector}, {_tuple(values)}),"
-    if len(line) <= _LONGEST_LINE:
-        return line
-    return "\n".join(
-        (
-            f"        {field}: (",
-            f"            {selector},",
-            *_column(values, "            ", ","),
-            "        ),",
-        )
-    )
 
 
 def _constant(name: str, values: tuple[int, ...]) -> str:

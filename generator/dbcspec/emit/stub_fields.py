@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-from dbcspec.emit.stub_acting import acting_codes
 from dbcspec.emit.stub_branches import Conditions, conditions
-from dbcspec.emit.stub_docs import field_doc, quote
+from dbcspec.emit.stub_docs import field_doc
 from typedcan.model.kinds import Kind, kind_of
+from typedcan.model.layout import in_bit_order
 from typedcan.model.naming import member_names
-from typedcan.model.protocol import ByteOrder, Message, Signal, ValueTable
+from typedcan.model.protocol import Message, Signal, ValueTable
 
 _TABLE_BITS = 10
 _CODE_BITS = 8
@@ -32,23 +31,16 @@ class StubField:
     says: str
     doc: str
     expression: str
-    arguments: tuple[tuple[str, str], ...]
     conditions: Conditions
 
 
 def fields_of(message: Message) -> list[StubField]:
     """The fields of a message, in the order in which a DBC reader lists its signals."""
-    ordered = sorted(message.signals, key=_bit_order)
+    ordered = in_bit_order(message.signals)
     return [
         _field(message, signal, index, conditions(message, ordered, signal))
         for index, signal in enumerate(ordered)
     ]
-
-
-def _bit_order(signal: Signal) -> int:
-    """The order in which a DBC reader lists signals: by start bit, bytes from the left."""
-    from_left = 8 * (signal.start // 8) + 7 - signal.start % 8
-    return signal.start if signal.byte_order is ByteOrder.INTEL else from_left
 
 
 def _field(message: Message, signal: Signal, index: int, when: Conditions) -> StubField:
@@ -63,7 +55,6 @@ def _field(message: Message, signal: Signal, index: int, when: Conditions) -> St
         says=says,
         doc=field_doc(signal, says),
         expression=_expression(signal, kind, f"v[{index}]"),
-        arguments=tuple(_arguments(signal, kind)),
         conditions=when,
     )
 
@@ -145,70 +136,6 @@ def _expression(signal: Signal, kind: Kind, raw: str) -> str:
     for code, state in reversed(_states(signal).items()) if kind is not Kind.FLOAT else ():
         value = f"{state} if {raw} == {code} else {value}"
     return value
-
-
-def _arguments(signal: Signal, kind: Kind) -> list[tuple[str, str]]:
-    """Keyword arguments of the runtime field, those with a default left out."""
-    arguments = [
-        ("name", quote(signal.python_name)),
-        ("dbc_name", quote(signal.name)),
-        ("title", quote(signal.english)),
-    ]
-    if signal.unit:
-        arguments.append(("unit", quote(signal.unit)))
-    arguments += [("reference", quote(signal.reference)), ("length", str(signal.length))]
-    if kind is Kind.FLOAT:
-        return [
-            *arguments,
-            ("factor", _float(float(signal.factor))),
-            ("offset", _float(float(signal.offset))),
-            ("minimum", _float(float(signal.minimum))),
-            ("maximum", _float(float(signal.maximum))),
-        ]
-    low, high = _sendable(signal, kind)
-    if kind is Kind.PHYSICAL:
-        minimum, maximum = _physical_limits(signal, low, high)
-        arguments += [
-            ("factor", _float(float(signal.factor))),
-            ("offset", _float(float(signal.offset))),
-            ("minimum", _float(minimum)),
-            ("maximum", _float(maximum)),
-        ]
-    else:
-        arguments += [("minimum", str(low)), ("maximum", str(high))]
-    if states := _states(signal):
-        inner = ", ".join(f"{code}: SignalState.{state}" for code, state in states.items())
-        arguments.append(("states", f"{{{inner}}}"))
-    if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
-        arguments.append(("labels", f"enums.{labels_name(signal.value_table)}"))
-    if kind is Kind.LABELLED:
-        arguments.append(("enum", f"enums.{_enum_name(signal)}"))
-    if signal.acting:
-        arguments.append(("acting", acting_codes(signal.acting)))
-    return arguments
-
-
-def _sendable(signal: Signal, kind: Kind) -> tuple[int, int]:
-    """The raw values of the range and, where they make the field, of the codes; if they fit."""
-    (low, high), (least, most) = signal.raw_range, signal.raw_limits
-    if kind is Kind.LABELLED and signal.value_table:
-        codes = [code.value for code in signal.value_table.codes]
-        low, high = min(low, *codes), max(high, *codes)
-    return max(low, least), min(high, most)
-
-
-def _physical_limits(signal: Signal, low: int, high: int) -> tuple[float, float]:
-    """The physical values of the raw ends; those of over 53 bits, rounded towards each other."""
-    factor, offset = float(signal.factor), float(signal.offset)
-    ends = sorted(_physical(signal, raw) for raw in (low, high))
-    middle = sum(ends) / 2
-
-    def inwards(value: float) -> float:
-        while not low <= round((value - offset) / factor) <= high and value != middle:
-            value = math.nextafter(value, middle)
-        return value
-
-    return inwards(ends[0]), inwards(ends[1])
 
 
 def _enum_name(signal: Signal) -> str:

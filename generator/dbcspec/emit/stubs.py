@@ -5,7 +5,7 @@ from __future__ import annotations
 import builtins
 import keyword
 
-from dbcspec.emit.stub_branches import Branches, called, declared, selected
+from dbcspec.emit.stub_branches import Branches, called, declared
 from dbcspec.emit.stub_docs import enum_doc, message_doc, quote
 from dbcspec.emit.stub_fields import (
     StubField,
@@ -13,23 +13,32 @@ from dbcspec.emit.stub_fields import (
     code_type,
     fields_of,
     has_short_table,
-    labels_name,
     members,
 )
-from dbcspec.emit.stub_protocol import References, tuple_of
 from dbcspec.emit.templating import template
 from typedcan.model.kinds import Kind, enums
-from typedcan.model.layout import whole_byte
 from typedcan.model.protocol import Message, Protocol
+from typedcan.model.serial import to_json
 
 _LONGEST_LINE = 100
 TAKEN = {
     *keyword.kwlist,
     *dir(builtins),
-    *(kind.value for kind in Kind),
-    *("MESSAGES", "Any", "ClassVar", "Mapping", "dataclass", "enums", "annotations", "messages"),
+    *(
+        "MESSAGES",
+        "MODEL",
+        "ENUMS",
+        "DECODERS",
+        "PROTOCOL",
+        "NAME",
+        "DIGEST",
+        "INVALID",
+        "ABNORMAL",
+    ),
+    *("Any", "Callable", "ClassVar", "Decoder", "IntEnum", "Mapping", "Sequence", "dataclass"),
+    *("annotations", "bind", "code_table", "draft_of", "enums", "messages", "model", "read_model"),
+    *("Message", "MessageModel", "SignalState", "Checksum", "Counter", "Field", "Selected"),
     *(f"Code{bits}" for bits in range(1, 9)),
-    *("Message", "SignalState", "Checksum", "Counter", "ActingCodes", "Field", "fields_by_name"),
 }
 """What stands in the modules of the stubs already."""
 
@@ -48,54 +57,60 @@ def emit_stubs(protocol: Protocol) -> dict[str, str]:
         "imports": _imports(protocol, [field for _, fields in stubs for field in fields]),
         "code_tables": _code_tables(stubs),
         "branches": Branches(protocol),
-        "selected": selected,
+        "selects": _selects,
         "class_of": class_name,
         "class_names": sorted(map(class_name, protocol.messages)),
         "function_of": _function_names(protocol).__getitem__,
         "doc": _doc,
-        "whole_byte": whole_byte,
-        "signal_of": lambda message, name: next(s for s in message.signals if s.name == name),
         "quote": quote,
         "declared": declared,
         "called": called,
         "head": _head,
         "receivers": _receivers,
-        "refs": References(protocol, class_name),
-        "node_names": [quote(node.name) for node in protocol.nodes],
-        "tuple_of": tuple_of,
-        **_enum_context(protocol, [field for _, fields in stubs for field in fields]),
+        "binding": _binding(protocol),
+        **_enum_context(protocol),
     }
-    return {
-        name: template(f"{name}.j2").render(context)
-        for name in ("__init__.py", "enums.py", "messages.py", "decoders.py", "protocol.py")
-    }
+    modules = ("__init__", "model", "enums", "messages", "decoders", "protocol")
+    rendered = {f"{name}.py": template(f"{name}.py.j2").render(context) for name in modules}
+    return {**rendered, MODEL_FILE: to_json(protocol)}
 
 
-def _enum_context(protocol: Protocol, fields: list[StubField]) -> dict[str, object]:
+MODEL_FILE = "protocol.json"
+"""The whole model, beside the modules."""
+
+
+def _enum_context(protocol: Protocol) -> dict[str, object]:
     tables = enums(protocol.messages)
-    labelled = {
-        field.signal.value_table: labels_name(field.signal.value_table)
-        for field in fields
-        if field.signal.value_table and field.kind in (Kind.LABELLED, Kind.CHARACTER)
-    }
     return {
         "enums": [(table, members(table), enum_doc(users)) for table, users in tables.items()],
-        "labelled": labelled,
         "used_enums": sorted((table.name for table in tables), key=str.lower),
-        "multiplexed": any(field.conditions for field in fields),
     }
 
 
 def _imports(protocol: Protocol, fields: list[StubField]) -> list[str]:
-    """What the messages take from the runtime."""
-    names = {"Field", "Message", "SignalState", "fields_by_name"}
+    """What the messages take from the runtime's messages."""
+    names = {"Field", "Message"}
     names |= {"Checksum" for message in protocol.messages if message.checksum}
     names |= {"Counter" for message in protocol.messages if message.counter}
-    names |= {"ActingCodes" for _, signal in protocol.signals() if signal.acting}
-    names |= {field.kind.value for field in fields}
+    names |= {"Selected" for message in protocol.messages if _selects(message)}
+    names |= {"SignalState" for field in fields if "SignalState" in field.annotation}
     codes = {code_type(field.signal) for field in fields if field.kind is Kind.LABELLED}
     names |= {name for name in codes if name}
     return sorted(names, key=_import_order)
+
+
+def _binding(protocol: Protocol) -> list[str]:
+    """What binds classes to the model; a field cannot have such a name with an underscore."""
+    names = ["checksum_of"] if any(each.checksum for each in protocol.messages) else []
+    names += ["counter_of"] if any(each.counter for each in protocol.messages) else []
+    names += ["fields_of"] if protocol.messages else []
+    return names + (["selected_of"] if any(map(_selects, protocol.messages)) else [])
+
+
+def _selects(message: Message) -> bool:
+    """Whether a signal of a message selects others."""
+    names = {signal.name for signal in message.signals}
+    return any(signal.multiplexer in names for signal in message.signals)
 
 
 def class_name(message: Message) -> str:
@@ -144,15 +159,22 @@ def _receivers(message: Message) -> str:
 def _code_tables(stubs: list[tuple[Message, list[StubField]]]) -> list[tuple[str, str]]:
     """The look-up tables of the decoders: name and the expression that makes it."""
     tables: dict[str, str] = {}
-    for _, fields in stubs:
+    for message, fields in stubs:
         for field in fields:
-            table = field.signal.value_table
-            if table and field.kind in (Kind.LABELLED, Kind.CHARACTER):
-                labelled = field.kind is Kind.LABELLED
-                source = f"enums.{table.name if labelled else labels_name(table)}"
-                if has_short_table(field.signal):
-                    source = f"code_table({source}, {field.signal.length})"
-                elif labelled:
-                    source = f"{{member.value: member for member in {source}}}"
-                tables[code_table_name(field.signal)] = source
+            if field.signal.value_table and field.kind in (Kind.LABELLED, Kind.CHARACTER):
+                name = code_table_name(field.signal)
+                tables.setdefault(name, _code_table(class_name(message), field))
     return sorted(tables.items())
+
+
+def _code_table(message: str, field: StubField) -> str:
+    table = field.signal.value_table
+    if field.kind is Kind.LABELLED and table:
+        source = f"enums.{table.name}"
+        members_of = f"{{member.value: member for member in {source}}}"
+    else:
+        field_name = quote(field.signal.python_name)
+        source = members_of = f"messages.{message}.FIELDS[{field_name}].labels"
+    if has_short_table(field.signal):
+        return f"code_table({source}, {field.signal.length})"
+    return members_of

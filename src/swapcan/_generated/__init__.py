@@ -4,4 +4,4 @@ NAME = "caamtb-swap"
 """Of the protocol and its DBC."""
 
 DIGEST = "ae1b41d069e617b3"
-"""Of the resolved model; the DBC beside this file carries the same."""
+"""Of the model in the file beside."""

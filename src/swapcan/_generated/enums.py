@@ -5,11 +5,10 @@ From spec ae1b41d069e617b3; change the spec, not this file.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from enum import IntEnum
-from types import MappingProxyType
 
 __all__ = [
+    "ENUMS",
     "AccessoryHvCommand",
     "AccessoryRelayState",
     "BalancingState",
@@ -346,221 +345,38 @@ class ConnectorState(IntEnum):
     """未连接"""
 
 
-def _labels(*pairs: tuple[int, str]) -> Mapping[int, str]:
-    return MappingProxyType(dict(pairs))
-
-
-HV_COMMAND = _labels(
-    (0, "Reserved"),
-    (1, "HV On"),
-    (2, "HV Off"),
-    (3, "Signal Invalid"),
-)
-ACCESSORY_HV_COMMAND = _labels(
-    (0, "Reserved"),
-    (1, "HV ACC On"),
-    (2, "HV ACC Off"),
-    (3, "Signal Invalid"),
-)
-HEAT_COMMAND = _labels(
-    (0, "Reserved"),
-    (1, "Heat On"),
-    (2, "Heat Off"),
-    (3, "Signal Invalid"),
-)
-RELAY_STATE = _labels(
-    (0, "Reserved"),
-    (1, "Open"),
-    (2, "Closed"),
-    (3, "Signal Invalid"),
-)
-CONTACTOR_FAULT = _labels(
-    (0, "Normal"),
-    (1, "Weld"),
-    (2, "Opened"),
-    (3, "Signal Invalid"),
-)
-VIN_REQUEST = _labels(
-    (0, "Reserved"),
-    (1, "Request VIN"),
-    (2, "No Request VIN"),
-    (3, "Signal Invalid"),
-)
-HV_OFF_REQUEST = _labels(
-    (0, "Reserved"),
-    (1, "Request HV Off"),
-    (2, "No Request HV Off"),
-    (3, "Signal Invalid"),
-)
-CHARACTER = _labels(
-    (48, "0"),
-    (49, "1"),
-    (50, "2"),
-    (51, "3"),
-    (52, "4"),
-    (53, "5"),
-    (54, "6"),
-    (55, "7"),
-    (56, "8"),
-    (57, "9"),
-    (65, "A"),
-    (66, "B"),
-    (67, "C"),
-    (68, "D"),
-    (69, "E"),
-    (70, "F"),
-    (71, "G"),
-    (72, "H"),
-    (73, "I"),
-    (74, "J"),
-    (75, "K"),
-    (76, "L"),
-    (77, "M"),
-    (78, "N"),
-    (79, "O"),
-    (80, "P"),
-    (81, "Q"),
-    (82, "R"),
-    (83, "S"),
-    (84, "T"),
-    (85, "U"),
-    (86, "V"),
-    (87, "W"),
-    (88, "X"),
-    (89, "Y"),
-    (90, "Z"),
-)
-BATT_INFO_REQUEST = _labels(
-    (1, "Request BattInfo Data"),
-    (2, "Not request BattInfo Data"),
-    (3, "Signal Invalid"),
-)
-SYS_CODE_REQUEST = _labels(
-    (1, "Request SysCode Data"),
-    (2, "Not request SysCode Data"),
-    (3, "Signal Invalid"),
-)
-MANUFACTURER = _labels(
-    (1, "CATL"),
-    (2, "Li Shen"),
-    (3, "MGL"),
-    (4, "SAMSUNG"),
-    (5, "LG"),
-)
-PACK_CODE_LENGTH = _labels(
-    (0, "Do not transmit this Code"),
-)
-BATTERY_TYPE = _labels(
-    (1, "Lead-acid"),
-    (2, "Nickel-metal hydride"),
-    (3, "Lithium iron phosphate"),
-    (4, "Lithium manganese oxide"),
-    (5, "Lithium cobalt oxide"),
-    (6, "Ternary (NMC or NCA)"),
-    (7, "Lithium-ion polymer"),
-    (8, "Lithium titanate"),
-    (9, "Supercapacitor"),
-    (10, "Reserved"),
-    (11, "Reserved"),
-    (12, "Reserved"),
-    (13, "Reserved"),
-    (14, "Fuel cell"),
-    (15, "Other on-board storage"),
-)
-COOLING_TYPE = _labels(
-    (1, "Natural cooling"),
-    (2, "Fan cooling"),
-    (3, "Water cooling"),
-)
-FAULT_FLAG = _labels(
-    (0, "Normal"),
-    (1, "Fault"),
-)
-FAULT_LEVEL = _labels(
-    (0, "Normal"),
-    (1, "Level 1-Light fault"),
-    (2, "Level 2-More severe fault"),
-    (3, "Level3-Most severe fault"),
-)
-PLUG_FAULT_LEVEL = _labels(
-    (0, "Normal"),
-    (1, "Level 1-Light fault"),
-    (2, "Level 2-More severe fault"),
-)
-BMS_STATE = _labels(
-    (0, "HV open"),
-    (1, "Precharge"),
-    (2, "HV closed"),
-    (3, "Fail to HV on"),
-)
-ACCESSORY_RELAY_STATE = _labels(
-    (0, "Open"),
-    (1, "Closed"),
-)
-BALANCING_STATE = _labels(
-    (0, "No Balancing"),
-    (1, "Balancing"),
-)
-CHARGE_LINE = _labels(
-    (0, "Not connected"),
-    (1, "Connected"),
-)
-CHARGE_MODE = _labels(
-    (0, "Reserved"),
-    (1, "DC charging"),
-    (2, "AC charging"),
-    (3, "Other charging"),
-)
-CHARGE_STATE = _labels(
-    (0, "Ready to be charging"),
-    (1, "Charging"),
-    (2, "End of Charge"),
-    (3, "Charge error"),
-)
-CHARGE_CONTROL = _labels(
-    (0, "Start to charge"),
-    (1, "Normal Stop to charge"),
-    (2, "Fault - Stop to charge"),
-)
-CHARGER_FAULT = _labels(
-    (0, "OK"),
-    (1, "Fault"),
-)
-CHARGER_TIMEOUT = _labels(
-    (0, "Normal"),
-    (1, "Fault(overtime)"),
-)
-CHARGER_OPERATION = _labels(
-    (0, "On"),
-    (1, "Off(in order to prevent Battery reverse connection)"),
-)
-HV_RELAY_STATE = _labels(
-    (0, "Open"),
-    (1, "Closed"),
-)
-HV_REQUEST = _labels(
-    (0, "Request HV on"),
-    (1, "Request HV off"),
-)
-THERMAL_MODE = _labels(
-    (0, "Off"),
-    (1, "Cooling"),
-    (2, "Heating"),
-    (3, "Self-circulation"),
-)
-WARNING_LEVEL = _labels(
-    (0, "Inactive"),
-    (1, "Level 1"),
-    (2, "Level 2"),
-    (3, "Level 3"),
-)
-LOCK_STATE = _labels(
-    (0, "Neither unlocked nor locked"),
-    (1, "Unlocked"),
-    (2, "Locked"),
-    (3, "Other"),
-)
-CONNECTOR_STATE = _labels(
-    (1, "Connected"),
-    (2, "Not connected"),
-)
+ENUMS: dict[str, type[IntEnum]] = {
+    "HvCommand": HvCommand,
+    "AccessoryHvCommand": AccessoryHvCommand,
+    "HeatCommand": HeatCommand,
+    "RelayState": RelayState,
+    "ContactorFault": ContactorFault,
+    "VinRequest": VinRequest,
+    "HvOffRequest": HvOffRequest,
+    "BattInfoRequest": BattInfoRequest,
+    "SysCodeRequest": SysCodeRequest,
+    "Manufacturer": Manufacturer,
+    "PackCodeLength": PackCodeLength,
+    "BatteryType": BatteryType,
+    "CoolingType": CoolingType,
+    "FaultFlag": FaultFlag,
+    "FaultLevel": FaultLevel,
+    "PlugFaultLevel": PlugFaultLevel,
+    "BmsState": BmsState,
+    "AccessoryRelayState": AccessoryRelayState,
+    "BalancingState": BalancingState,
+    "ChargeLine": ChargeLine,
+    "ChargeMode": ChargeMode,
+    "ChargeState": ChargeState,
+    "ChargeControl": ChargeControl,
+    "ChargerFault": ChargerFault,
+    "ChargerTimeout": ChargerTimeout,
+    "ChargerOperation": ChargerOperation,
+    "ThermalMode": ThermalMode,
+    "HvRequest": HvRequest,
+    "HvRelayState": HvRelayState,
+    "WarningLevel": WarningLevel,
+    "LockState": LockState,
+    "ConnectorState": ConnectorState,
+}
+"""The enums by the names of their value tables."""

@@ -9,8 +9,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from . import enums
+from typedcan.model.protocol import Message as MessageModel
+from typedcan.wire.binding import checksum_of as _checksum_of
+from typedcan.wire.binding import counter_of as _counter_of
+from typedcan.wire.binding import fields_of as _fields_of
+from typedcan.wire.message import (
+    Checksum,
+    Code1,
+    Code2,
+    Code3,
+    Code4,
+    Code5,
+    Counter,
+    Field,
+    Message,
+    SignalState,
+)
+
 from .enums import (
+    ENUMS,
     AccessoryHvCommand,
     AccessoryRelayState,
     BalancingState,
@@ -44,25 +61,7 @@ from .enums import (
     VinRequest,
     WarningLevel,
 )
-from typedcan.wire.message import (
-    ActingCodes,
-    CharacterField,
-    Checksum,
-    Code1,
-    Code2,
-    Code3,
-    Code4,
-    Code5,
-    Counter,
-    Field,
-    FilledField,
-    LabelledField,
-    Message,
-    NumberField,
-    PhysicalField,
-    SignalState,
-    fields_by_name,
-)
+from .model import MODEL
 
 __all__ = [
     "MESSAGES",
@@ -92,6 +91,8 @@ __all__ = [
     "V2B_RQData",
     "V2B_VIN",
 ]
+
+_MODELS = MODEL.messages
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,264 +178,17 @@ class V2B_CMD(Message):
     """Auxiliary 4 contactor fault (辅件 4 接触器故障): 0 to 3. V2B_CMD_AttConFlt4, Table 14 row 20
     (5.2.1)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[0]
     NAME: ClassVar[str] = "V2B_CMD"
     FRAME_ID: ClassVar[int] = 0x1802F3D0
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "VCU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("BMU",)
     PERIOD: ClassVar[float | None] = 0.05
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    COUNTER: ClassVar[Counter | None] = Counter(
-        field="aliv",
-        dbc_name="V2B_CMD_ALIV",
-        modulus=15,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="V2B_CMD_Checksum",
-            title="Checksum of V2B_CMD: byte 0 is the XOR of bytes 1 to 7",
-            reference="Table 14 row 1 (5.2.1)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        FilledField(
-            name="aliv",
-            dbc_name="V2B_CMD_ALIV",
-            title="Alive counter of the VCU",
-            reference="Table 14 row 2 (5.2.1)",
-            length=4,
-            minimum=0,
-            maximum=15,
-            states={15: SignalState.INVALID},
-        ),
-        LabelledField(
-            name="hv_on_off",
-            dbc_name="V2B_CMD_HV_OnOff",
-            title="High voltage on or off command",
-            reference="Table 14 row 3 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.HV_COMMAND,
-            enum=enums.HvCommand,
-            acting=ActingCodes(codes=frozenset({1}), safe=2),
-        ),
-        LabelledField(
-            name="hv_acc_on_off",
-            dbc_name="V2B_CMD_HV_ACC_OnOff",
-            title="Accessory high voltage on or off command",
-            reference="Table 14 row 4 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.ACCESSORY_HV_COMMAND,
-            enum=enums.AccessoryHvCommand,
-            acting=ActingCodes(codes=frozenset({1}), safe=2),
-        ),
-        PhysicalField(
-            name="vehicle_speed",
-            dbc_name="V2B_CMD_VehicleSpeed",
-            title="Vehicle speed",
-            unit="km/h",
-            reference="Table 14 row 5 (5.2.1)",
-            length=8,
-            factor=1.0,
-            offset=0.0,
-            minimum=0.0,
-            maximum=255.0,
-        ),
-        LabelledField(
-            name="heat_on_off",
-            dbc_name="V2B_CMD_Heat_OnOff",
-            title="Heating on or off command",
-            reference="Table 14 row 6 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.HEAT_COMMAND,
-            enum=enums.HeatCommand,
-            acting=ActingCodes(codes=frozenset({1}), safe=2),
-        ),
-        LabelledField(
-            name="main_pos_relay_st",
-            dbc_name="V2B_CMD_MainPosRelayST",
-            title="Main positive relay (where the vehicle detects it)",
-            reference="Table 14 row 7 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="main_neg_relay_st",
-            dbc_name="V2B_CMD_MainNegRelayST",
-            title="Main negative relay (where the vehicle detects it)",
-            reference="Table 14 row 8 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="prechg_relay_st",
-            dbc_name="V2B_CMD_PrechgRelayST",
-            title="Precharge relay (where the vehicle detects it)",
-            reference="Table 14 row 9 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="att_relay_st",
-            dbc_name="V2B_CMD_AttRelayST",
-            title="Accessory relay (where the vehicle detects it)",
-            reference="Table 14 row 10 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="main_motor_con_st",
-            dbc_name="V2B_CMD_MainMotorConST",
-            title="Main motor contactor",
-            reference="Table 14 row 11 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="main_motor_con_flt",
-            dbc_name="V2B_CMD_MainMotorConFlt",
-            title="Main motor contactor fault",
-            reference="Table 14 row 12 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.CONTACTOR_FAULT,
-            enum=enums.ContactorFault,
-        ),
-        LabelledField(
-            name="att_con_st1",
-            dbc_name="V2B_CMD_AttConST1",
-            title="Auxiliary 1 contactor",
-            reference="Table 14 row 13 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="att_con_flt1",
-            dbc_name="V2B_CMD_AttConFlt1",
-            title="Auxiliary 1 contactor fault",
-            reference="Table 14 row 14 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.CONTACTOR_FAULT,
-            enum=enums.ContactorFault,
-        ),
-        LabelledField(
-            name="att_con_st2",
-            dbc_name="V2B_CMD_AttConST2",
-            title="Auxiliary 2 contactor",
-            reference="Table 14 row 15 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="att_con_flt2",
-            dbc_name="V2B_CMD_AttConFlt2",
-            title="Auxiliary 2 contactor fault",
-            reference="Table 14 row 16 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.CONTACTOR_FAULT,
-            enum=enums.ContactorFault,
-        ),
-        LabelledField(
-            name="att_con_st3",
-            dbc_name="V2B_CMD_AttConST3",
-            title="Auxiliary 3 contactor",
-            reference="Table 14 row 17 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="att_con_flt3",
-            dbc_name="V2B_CMD_AttConFlt3",
-            title="Auxiliary 3 contactor fault",
-            reference="Table 14 row 18 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.CONTACTOR_FAULT,
-            enum=enums.ContactorFault,
-        ),
-        LabelledField(
-            name="att_con_st4",
-            dbc_name="V2B_CMD_AttConST4",
-            title="Auxiliary 4 contactor",
-            reference="Table 14 row 19 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="att_con_flt4",
-            dbc_name="V2B_CMD_AttConFlt4",
-            title="Auxiliary 4 contactor fault",
-            reference="Table 14 row 20 (5.2.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.CONTACTOR_FAULT,
-            enum=enums.ContactorFault,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[0])
+    COUNTER: ClassVar[Counter | None] = _counter_of(_MODELS[0])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[0], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -452,38 +206,15 @@ class B2V_RQ(Message):
     hv_off: HvOffRequest | Code2 = HvOffRequest.SIGNAL_INVALID
     """Request to switch high voltage off (是否请求下高压): 0 to 3. B2V_RQ_HVOff, Table 3 row 2 (5.1.3)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[1]
     NAME: ClassVar[str] = "B2V_RQ"
     FRAME_ID: ClassVar[int] = 0x1801D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = None
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        LabelledField(
-            name="vin",
-            dbc_name="B2V_RQ_VIN",
-            title="Request for the VIN",
-            reference="Table 3 row 1 (5.1.3)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.VIN_REQUEST,
-            enum=enums.VinRequest,
-        ),
-        LabelledField(
-            name="hv_off",
-            dbc_name="B2V_RQ_HVOff",
-            title="Request to switch high voltage off",
-            reference="Table 3 row 2 (5.1.3)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.HV_OFF_REQUEST,
-            enum=enums.HvOffRequest,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[1], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -526,93 +257,15 @@ class V2B_VIN(Message):
     """VIN characters 7, 14 (ASCII) (车辆 VIN 码 7, 14 字符 (ASCII 码)): 0 to 255. V2B_VIN_B7_14, Table
     15 row 8 (5.2.2)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[2]
     NAME: ClassVar[str] = "V2B_VIN"
     FRAME_ID: ClassVar[int] = 0x18E1F3D0
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "VCU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("BMU",)
     PERIOD: ClassVar[float | None] = None
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        NumberField(
-            name="frame_no",
-            dbc_name="V2B_VIN_FrameNo",
-            title="VIN frame number",
-            reference="Table 15 row 1 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        CharacterField(
-            name="b1_8_15",
-            dbc_name="V2B_VIN_B1_8_15",
-            title="VIN characters 1, 8, 15 (ASCII)",
-            reference="Table 15 row 2 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="b2_9_16",
-            dbc_name="V2B_VIN_B2_9_16",
-            title="VIN characters 2, 9, 16 (ASCII)",
-            reference="Table 15 row 3 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="b3_10_17",
-            dbc_name="V2B_VIN_B3_10_17",
-            title="VIN characters 3, 10, 17 (ASCII)",
-            reference="Table 15 row 4 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="b4_11",
-            dbc_name="V2B_VIN_B4_11",
-            title="VIN characters 4, 11 (ASCII)",
-            reference="Table 15 row 5 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="b5_12",
-            dbc_name="V2B_VIN_B5_12",
-            title="VIN characters 5, 12 (ASCII)",
-            reference="Table 15 row 6 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="b6_13",
-            dbc_name="V2B_VIN_B6_13",
-            title="VIN characters 6, 13 (ASCII)",
-            reference="Table 15 row 7 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="b7_14",
-            dbc_name="V2B_VIN_B7_14",
-            title="VIN characters 7, 14 (ASCII)",
-            reference="Table 15 row 8 (5.2.2)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[2], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -635,54 +288,16 @@ class V2B_RQData(Message):
     rq_sys_code: SysCodeRequest | Code2 = SysCodeRequest.SIGNAL_INVALID
     """Request for SysCode (是否请求发送 SysCode): 0 to 3. V2B_RD_RQSysCode, Table 16 row 3 (5.2.3)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[3]
     NAME: ClassVar[str] = "V2B_RQData"
     FRAME_ID: ClassVar[int] = 0x1801F3EF
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "VCU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("BMU",)
     PERIOD: ClassVar[float | None] = None
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="V2B_RD_Checksum",
-            title="Checksum: byte 0 is the XOR of bytes 1 to 7",
-            reference="Table 16 row 1 (5.2.3)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        LabelledField(
-            name="rq_batt_info",
-            dbc_name="V2B_RD_RQBattInfo",
-            title="Request for BattInfo",
-            reference="Table 16 row 2 (5.2.3)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.BATT_INFO_REQUEST,
-            enum=enums.BattInfoRequest,
-        ),
-        LabelledField(
-            name="rq_sys_code",
-            dbc_name="V2B_RD_RQSysCode",
-            title="Request for SysCode",
-            reference="Table 16 row 3 (5.2.3)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.SYS_CODE_REQUEST,
-            enum=enums.SysCodeRequest,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[3])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[3], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -732,112 +347,16 @@ class B2V_SysCode1(Message):
     """Pack code (SN) character 6 (ASCII) (电池编码(SN)字符 6(ASCII)): 0 to 255. B2V_SC1_SysCode_B6,
     Table 8 row 9 (5.1.7)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[4]
     NAME: ClassVar[str] = "B2V_SysCode1"
     FRAME_ID: ClassVar[int] = 0x18E1D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 1.0
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="B2V_SC1_Checksum",
-            title="Checksum of pack code frame 1",
-            reference="Table 8 row 1 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        LabelledField(
-            name="manufacturer",
-            dbc_name="B2V_SC1_Manufacturer",
-            title="Battery manufacturer",
-            reference="Table 8 row 2 (5.1.7)",
-            length=3,
-            minimum=0,
-            maximum=7,
-            labels=enums.MANUFACTURER,
-            enum=enums.Manufacturer,
-        ),
-        LabelledField(
-            name="sys_code_length",
-            dbc_name="B2V_SC1_SysCodeLength",
-            title="Length of the pack code",
-            reference="Table 8 row 3 (5.1.7)",
-            length=5,
-            minimum=0,
-            maximum=31,
-            labels=enums.PACK_CODE_LENGTH,
-            enum=enums.PackCodeLength,
-        ),
-        CharacterField(
-            name="sys_code_b1",
-            dbc_name="B2V_SC1_SysCode_B1",
-            title="Pack code (SN) character 1 (ASCII)",
-            reference="Table 8 row 4 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b2",
-            dbc_name="B2V_SC1_SysCode_B2",
-            title="Pack code (SN) character 2 (ASCII)",
-            reference="Table 8 row 5 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b3",
-            dbc_name="B2V_SC1_SysCode_B3",
-            title="Pack code (SN) character 3 (ASCII)",
-            reference="Table 8 row 6 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b4",
-            dbc_name="B2V_SC1_SysCode_B4",
-            title="Pack code (SN) character 4 (ASCII)",
-            reference="Table 8 row 7 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b5",
-            dbc_name="B2V_SC1_SysCode_B5",
-            title="Pack code (SN) character 5 (ASCII)",
-            reference="Table 8 row 8 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b6",
-            dbc_name="B2V_SC1_SysCode_B6",
-            title="Pack code (SN) character 6 (ASCII)",
-            reference="Table 8 row 9 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[4])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[4], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -882,100 +401,16 @@ class B2V_SysCode2(Message):
     """Pack code (SN) character 13 (ASCII) (电池编码(SN)字符 13(ASCII)): 0 to 255. B2V_SC2_SysCode_B13,
     Table 8 row 17 (5.1.7)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[5]
     NAME: ClassVar[str] = "B2V_SysCode2"
     FRAME_ID: ClassVar[int] = 0x18E2D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 1.0
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="B2V_SC2_Checksum",
-            title="Checksum of pack code frame 2",
-            reference="Table 8 row 10 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        CharacterField(
-            name="sys_code_b7",
-            dbc_name="B2V_SC2_SysCode_B7",
-            title="Pack code (SN) character 7 (ASCII)",
-            reference="Table 8 row 11 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b8",
-            dbc_name="B2V_SC2_SysCode_B8",
-            title="Pack code (SN) character 8 (ASCII)",
-            reference="Table 8 row 12 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b9",
-            dbc_name="B2V_SC2_SysCode_B9",
-            title="Pack code (SN) character 9 (ASCII)",
-            reference="Table 8 row 13 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b10",
-            dbc_name="B2V_SC2_SysCode_B10",
-            title="Pack code (SN) character 10 (ASCII)",
-            reference="Table 8 row 14 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b11",
-            dbc_name="B2V_SC2_SysCode_B11",
-            title="Pack code (SN) character 11 (ASCII)",
-            reference="Table 8 row 15 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b12",
-            dbc_name="B2V_SC2_SysCode_B12",
-            title="Pack code (SN) character 12 (ASCII)",
-            reference="Table 8 row 16 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b13",
-            dbc_name="B2V_SC2_SysCode_B13",
-            title="Pack code (SN) character 13 (ASCII)",
-            reference="Table 8 row 17 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[5])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[5], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1020,100 +455,16 @@ class B2V_SysCode3(Message):
     """Pack code (SN) character 20 (ASCII) (电池编码(SN)字符 20(ASCII)): 0 to 255. B2V_SC3_SysCode_B20,
     Table 8 row 25 (5.1.7)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[6]
     NAME: ClassVar[str] = "B2V_SysCode3"
     FRAME_ID: ClassVar[int] = 0x18E3D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 1.0
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="B2V_SC3_Checksum",
-            title="Checksum of pack code frame 3",
-            reference="Table 8 row 18 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        CharacterField(
-            name="sys_code_b14",
-            dbc_name="B2V_SC3_SysCode_B14",
-            title="Pack code (SN) character 14 (ASCII)",
-            reference="Table 8 row 19 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b15",
-            dbc_name="B2V_SC3_SysCode_B15",
-            title="Pack code (SN) character 15 (ASCII)",
-            reference="Table 8 row 20 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b16",
-            dbc_name="B2V_SC3_SysCode_B16",
-            title="Pack code (SN) character 16 (ASCII)",
-            reference="Table 8 row 21 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b17",
-            dbc_name="B2V_SC3_SysCode_B17",
-            title="Pack code (SN) character 17 (ASCII)",
-            reference="Table 8 row 22 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b18",
-            dbc_name="B2V_SC3_SysCode_B18",
-            title="Pack code (SN) character 18 (ASCII)",
-            reference="Table 8 row 23 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b19",
-            dbc_name="B2V_SC3_SysCode_B19",
-            title="Pack code (SN) character 19 (ASCII)",
-            reference="Table 8 row 24 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b20",
-            dbc_name="B2V_SC3_SysCode_B20",
-            title="Pack code (SN) character 20 (ASCII)",
-            reference="Table 8 row 25 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[6])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[6], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1158,100 +509,16 @@ class B2V_SysCode4(Message):
     """Pack code (SN) character 27 (ASCII) (电池编码(SN)字符 27(ASCII)): 0 to 255. B2V_SC4_SysCode_B27,
     Table 8 row 33 (5.1.7)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[7]
     NAME: ClassVar[str] = "B2V_SysCode4"
     FRAME_ID: ClassVar[int] = 0x18E4D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 1.0
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="B2V_SC4_Checksum",
-            title="Checksum of pack code frame 4",
-            reference="Table 8 row 26 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        CharacterField(
-            name="sys_code_b21",
-            dbc_name="B2V_SC4_SysCode_B21",
-            title="Pack code (SN) character 21 (ASCII)",
-            reference="Table 8 row 27 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b22",
-            dbc_name="B2V_SC4_SysCode_B22",
-            title="Pack code (SN) character 22 (ASCII)",
-            reference="Table 8 row 28 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b23",
-            dbc_name="B2V_SC4_SysCode_B23",
-            title="Pack code (SN) character 23 (ASCII)",
-            reference="Table 8 row 29 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b24",
-            dbc_name="B2V_SC4_SysCode_B24",
-            title="Pack code (SN) character 24 (ASCII)",
-            reference="Table 8 row 30 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b25",
-            dbc_name="B2V_SC4_SysCode_B25",
-            title="Pack code (SN) character 25 (ASCII)",
-            reference="Table 8 row 31 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b26",
-            dbc_name="B2V_SC4_SysCode_B26",
-            title="Pack code (SN) character 26 (ASCII)",
-            reference="Table 8 row 32 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-        CharacterField(
-            name="sys_code_b27",
-            dbc_name="B2V_SC4_SysCode_B27",
-            title="Pack code (SN) character 27 (ASCII)",
-            reference="Table 8 row 33 (5.1.7)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            labels=enums.CHARACTER,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[7])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[7], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1279,75 +546,15 @@ class B2V_BattInfo1(Message):
     cool_type: CoolingType | Code2 = 0
     """Cooling (电池冷却方式): 0 to 3. B2V_BI1_CoolType, Table 13 row 5 (5.1.12)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[8]
     NAME: ClassVar[str] = "B2V_BattInfo1"
     FRAME_ID: ClassVar[int] = 0x18E5D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="rate_cap",
-            dbc_name="B2V_BI1_RateCap",
-            title="Rated capacity",
-            unit="Ah",
-            reference="Table 13 row 1 (5.1.12)",
-            length=16,
-            factor=1.0,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65535.0,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="rate_h_volt",
-            dbc_name="B2V_BI1_RateHVolt",
-            title="Rated voltage",
-            unit="V",
-            reference="Table 13 row 2 (5.1.12)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="rate_power",
-            dbc_name="B2V_BI1_RatePower",
-            title="Rated energy",
-            unit="kWh",
-            reference="Table 13 row 3 (5.1.12)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-            states={65535: SignalState.INVALID},
-        ),
-        LabelledField(
-            name="batt_type",
-            dbc_name="B2V_BI1_BattType",
-            title="Battery type",
-            reference="Table 13 row 4 (5.1.12)",
-            length=4,
-            minimum=0,
-            maximum=15,
-            labels=enums.BATTERY_TYPE,
-            enum=enums.BatteryType,
-        ),
-        LabelledField(
-            name="cool_type",
-            dbc_name="B2V_BI1_CoolType",
-            title="Cooling",
-            reference="Table 13 row 5 (5.1.12)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.COOLING_TYPE,
-            enum=enums.CoolingType,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[8], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1384,80 +591,15 @@ class B2V_BattInfo2(Message):
     """Highest usable cell voltage (not a live value) (单体可用最高电压(非实时变化的值)): 0 to 5 V.
     B2V_BI2_AvaiMax_Ucell, Table 13 row 11 (5.1.12)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[9]
     NAME: ClassVar[str] = "B2V_BattInfo2"
     FRAME_ID: ClassVar[int] = 0x18E6D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        NumberField(
-            name="tot_csc_num",
-            dbc_name="B2V_BI2_TotCSCNum",
-            title="Number of CSCs (cell supervision circuits) in the pack",
-            reference="Table 13 row 6 (5.1.12)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        NumberField(
-            name="tot_cell_num",
-            dbc_name="B2V_BI2_TotCellNum",
-            title="Number of cells in the pack",
-            reference="Table 13 row 7 (5.1.12)",
-            length=16,
-            minimum=0,
-            maximum=65535,
-        ),
-        NumberField(
-            name="tot_temp_num",
-            dbc_name="B2V_BI2_TotTempNum",
-            title="Number of temperature points (probes) in the pack",
-            reference="Table 13 row 8 (5.1.12)",
-            length=16,
-            minimum=0,
-            maximum=65535,
-        ),
-        PhysicalField(
-            name="platform_ucell",
-            dbc_name="B2V_BI2_Platform_Ucell",
-            title="Nominal cell voltage (not a live value)",
-            unit="V",
-            reference="Table 13 row 9 (5.1.12)",
-            length=8,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=5.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="avai_min_ucell",
-            dbc_name="B2V_BI2_AvaiMin_Ucell",
-            title="Lowest usable cell voltage (not a live value)",
-            unit="V",
-            reference="Table 13 row 10 (5.1.12)",
-            length=8,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=5.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="avai_max_ucell",
-            dbc_name="B2V_BI2_AvaiMax_Ucell",
-            title="Highest usable cell voltage (not a live value)",
-            unit="V",
-            reference="Table 13 row 11 (5.1.12)",
-            length=8,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=5.0,
-            states={255: SignalState.INVALID},
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[9], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1488,72 +630,15 @@ class B2V_Ucell(Message):
     """Voltage of cell N2 of this CSC (当前 CSC 下的第 N2 个电芯的电压): 0 to 65.535 V. B2V_UC_CSCNo_UcellN2,
     Table 9 row 5 (5.1.8)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[10]
     NAME: ClassVar[str] = "B2V_Ucell"
     FRAME_ID: ClassVar[int] = 0x18C1D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        NumberField(
-            name="frame_no",
-            dbc_name="B2V_UC_FrameNo",
-            title="Frame number",
-            reference="Table 9 row 1 (5.1.8)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        NumberField(
-            name="csc_no",
-            dbc_name="B2V_UC_CSCNo",
-            title="CSC number",
-            reference="Table 9 row 2 (5.1.8)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_ucell_n",
-            dbc_name="B2V_UC_CSCNo_UcellN",
-            title="Voltage of cell N of this CSC",
-            unit="V",
-            reference="Table 9 row 3 (5.1.8)",
-            length=16,
-            factor=0.001,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65.535,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_ucell_n1",
-            dbc_name="B2V_UC_CSCNo_UcellN1",
-            title="Voltage of cell N1 of this CSC",
-            unit="V",
-            reference="Table 9 row 4 (5.1.8)",
-            length=16,
-            factor=0.001,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65.535,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_ucell_n2",
-            dbc_name="B2V_UC_CSCNo_UcellN2",
-            title="Voltage of cell N2 of this CSC",
-            unit="V",
-            reference="Table 9 row 5 (5.1.8)",
-            length=16,
-            factor=0.001,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65.535,
-            states={65535: SignalState.INVALID},
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[10], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1596,111 +681,15 @@ class B2V_Temp(Message):
     """Temperature of probe N5 of this CSC (当前 CSC 下的第 N5 个探针的温度): -50 to 205 degC.
     B2V_T_CSCNo_TempN5, Table 10 row 8 (5.1.9)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[11]
     NAME: ClassVar[str] = "B2V_Temp"
     FRAME_ID: ClassVar[int] = 0x18C2D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.2
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        NumberField(
-            name="frame_no",
-            dbc_name="B2V_T_FrameNo",
-            title="Frame number",
-            reference="Table 10 row 1 (5.1.9)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        NumberField(
-            name="csc_no",
-            dbc_name="B2V_T_CSCNo",
-            title="CSC number",
-            reference="Table 10 row 2 (5.1.9)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_temp_n",
-            dbc_name="B2V_T_CSCNo_TempN",
-            title="Temperature of probe N of this CSC",
-            unit="degC",
-            reference="Table 10 row 3 (5.1.9)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_temp_n1",
-            dbc_name="B2V_T_CSCNo_TempN1",
-            title="Temperature of probe N1 of this CSC",
-            unit="degC",
-            reference="Table 10 row 4 (5.1.9)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_temp_n2",
-            dbc_name="B2V_T_CSCNo_TempN2",
-            title="Temperature of probe N2 of this CSC",
-            unit="degC",
-            reference="Table 10 row 5 (5.1.9)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_temp_n3",
-            dbc_name="B2V_T_CSCNo_TempN3",
-            title="Temperature of probe N3 of this CSC",
-            unit="degC",
-            reference="Table 10 row 6 (5.1.9)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_temp_n4",
-            dbc_name="B2V_T_CSCNo_TempN4",
-            title="Temperature of probe N4 of this CSC",
-            unit="degC",
-            reference="Table 10 row 7 (5.1.9)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="csc_no_temp_n5",
-            dbc_name="B2V_T_CSCNo_TempN5",
-            title="Temperature of probe N5 of this CSC",
-            unit="degC",
-            reference="Table 10 row 8 (5.1.9)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID},
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[11], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -1853,378 +842,15 @@ class B2V_ST0(Message):
     battery_fault_no: int = 0
     """Battery fault code (电池故障码): 0 to 255. B2V_ST0_BatteryFault_No, Table 1 row 14 (5.1.1)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[12]
     NAME: ClassVar[str] = "B2V_ST0"
     FRAME_ID: ClassVar[int] = 0x1880D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        NumberField(
-            name="rechrgeable_dev_no",
-            dbc_name="B2V_ST0_RechrgeableDev_No",
-            title="Number of this BMS among the rechargeable systems of the vehicle, told by the vehicle",
-            reference="Table 1 row 17 (5.1.1)",
-            length=4,
-            minimum=0,
-            maximum=15,
-        ),
-        LabelledField(
-            name="flt_main_pos_relay_weld",
-            dbc_name="B2V_ST0_Flt_MainPosRelayWeld",
-            title="Main positive relay welded",
-            reference="Table 2 row 9 (5.1.2), Table 12 row 22 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_main_neg_relay_weld",
-            dbc_name="B2V_ST0_Flt_MainNegRelayWeld",
-            title="Main negative relay welded",
-            reference="Table 2 row 10 (5.1.2), Table 12 row 23 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_pos_relay1_weld",
-            dbc_name="B2V_ST0_Flt_ChgPosRelay1Weld",
-            title="Charging positive relay 1 welded",
-            reference="Table 2 row 11 (5.1.2), Table 12 row 24 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_neg_relay1_weld",
-            dbc_name="B2V_ST0_Flt_ChgNegRelay1Weld",
-            title="Charging negative relay 1 welded",
-            reference="Table 2 row 12 (5.1.2), Table 12 row 25 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_pos_relay2_weld",
-            dbc_name="B2V_ST0_Flt_ChgPosRelay2Weld",
-            title="Charging positive relay 2 welded",
-            reference="Table 2 row 13 (5.1.2), Table 12 row 26 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_neg_relay2_weld",
-            dbc_name="B2V_ST0_Flt_ChgNegRelay2Weld",
-            title="Charging negative relay 2 welded",
-            reference="Table 2 row 14 (5.1.2), Table 12 row 27 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_heat_relay1_weld",
-            dbc_name="B2V_ST0_Flt_HeatRelay1Weld",
-            title="Heating relay 1 welded",
-            reference="Table 2 row 15 (5.1.2), Table 12 row 28 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_heat_relay2_weld",
-            dbc_name="B2V_ST0_Flt_HeatRelay2Weld",
-            title="Heating relay 2 welded",
-            reference="Table 2 row 16 (5.1.2), Table 12 row 29 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="st_main_pos",
-            dbc_name="B2V_ST0_ST_MainPos",
-            title="Main positive relay (where the BMS detects it)",
-            reference="Table 2 row 1 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="st_main_neg",
-            dbc_name="B2V_ST0_ST_MainNeg",
-            title="Main negative relay (where the BMS detects it)",
-            reference="Table 2 row 2 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="st_prechg",
-            dbc_name="B2V_ST0_ST_Prechg",
-            title="Precharge relay (where the BMS detects it)",
-            reference="Table 2 row 3 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="st_chg_pos1",
-            dbc_name="B2V_ST0_ST_ChgPos1",
-            title="Charging positive relay 1 (where the BMS detects it)",
-            reference="Table 2 row 4 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="st_chg_neg1",
-            dbc_name="B2V_ST0_ST_ChgNeg1",
-            title="Charging negative relay 1 (where the BMS detects it)",
-            reference="Table 2 row 5 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="st_chg_pos2",
-            dbc_name="B2V_ST0_ST_ChgPos2",
-            title="Charging positive relay 2 (where the BMS detects it)",
-            reference="Table 2 row 6 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="st_chg_neg2",
-            dbc_name="B2V_ST0_ST_ChgNeg2",
-            title="Charging negative relay 2 (where the BMS detects it)",
-            reference="Table 2 row 7 (5.1.2)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            states={3: SignalState.INVALID},
-            labels=enums.RELAY_STATE,
-            enum=enums.RelayState,
-        ),
-        LabelledField(
-            name="flt_acc_relay_weld",
-            dbc_name="B2V_ST0_Flt_ACCRelayWeld",
-            title="Accessory relay welded",
-            reference="Table 2 row 17 (5.1.2), Table 12 row 30 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_branch_open",
-            dbc_name="B2V_ST0_Flt_BranchOpen",
-            title="Branch open circuit",
-            reference="Table 12 row 31 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_feedback_chg_oc",
-            dbc_name="B2V_ST0_Flt_FeedbackChgOC",
-            title="Recuperation current over its limit",
-            reference="Table 12 row 32 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_main_pos_relay_open",
-            dbc_name="B2V_ST0_Flt_MainPosRelayOpen",
-            title="Main positive relay does not close",
-            reference="Table 2 row 18 (5.1.2), Table 12 row 33 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_main_neg_relay_open",
-            dbc_name="B2V_ST0_Flt_MainNegRelayOpen",
-            title="Main negative relay does not close",
-            reference="Table 2 row 19 (5.1.2), Table 12 row 34 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_pos_relay1_open",
-            dbc_name="B2V_ST0_Flt_ChgPosRelay1Open",
-            title="DC charging 1 positive relay does not close",
-            reference="Table 2 row 20 (5.1.2), Table 12 row 35 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_pos_relay2_open",
-            dbc_name="B2V_ST0_Flt_ChgPosRelay2Open",
-            title="DC charging 2 positive relay does not close",
-            reference="Table 2 row 21 (5.1.2), Table 12 row 36 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_neg_relay1_open",
-            dbc_name="B2V_ST0_Flt_ChgNegRelay1Open",
-            title="DC charging 1 negative relay does not close",
-            reference="Table 2 row 22 (5.1.2), Table 12 row 37 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_neg_relay2_open",
-            dbc_name="B2V_ST0_Flt_ChgNegRelay2Open",
-            title="DC charging 2 negative relay does not close",
-            reference="Table 2 row 23 (5.1.2), Table 12 row 38 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_heat_or_tms_relay_weld",
-            dbc_name="B2V_ST0_Flt_HeatOrTMSRelayWeld",
-            title="Heating film or TMS contactor does not open",
-            reference="Table 2 row 24 (5.1.2), Table 12 row 39 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_heat_or_tms_relay_open",
-            dbc_name="B2V_ST0_Flt_HeatOrTMSRelayOpen",
-            title="Heating film or TMS contactor does not close",
-            reference="Table 2 row 25 (5.1.2), Table 12 row 40 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_tms_system",
-            dbc_name="B2V_ST0_Flt_TMS_System",
-            title="Thermal management system fault",
-            reference="Table 12 row 41 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_power_supply",
-            dbc_name="B2V_ST0_Flt_PowerSupply",
-            title="BMS 24 V supply abnormal",
-            reference="Table 12 row 42 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_pack_self_protect",
-            dbc_name="B2V_ST0_Flt_PackSelfProtect",
-            title="Pack self-protection alarm",
-            reference="Table 12 row 43 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_chg_plug_ot",
-            dbc_name="B2V_ST0_Flt_ChgPlugOT",
-            title="Charging socket overtemperature",
-            reference="Table 12 row 44 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.PLUG_FAULT_LEVEL,
-            enum=enums.PlugFaultLevel,
-        ),
-        NumberField(
-            name="rechrgeable_dev_num",
-            dbc_name="B2V_ST0_RechrgeableDev_Num",
-            title="Number of rechargeable storage subsystems (reserved function)",
-            reference="Table 1 row 6 (5.1.1)",
-            length=4,
-            minimum=0,
-            maximum=15,
-        ),
-        NumberField(
-            name="battery_fault_no",
-            dbc_name="B2V_ST0_BatteryFault_No",
-            title="Battery fault code",
-            reference="Table 1 row 14 (5.1.1)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[12], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -2361,362 +987,17 @@ class B2V_ST1(Message):
     """Number of present faults as GB/T 32960.3 defines them (GBT32960.3 中规定的故障数目(当前时刻发生的)): 0 to
     31. B2V_ST1_GBT32960FltNum, Table 1 row 16 (5.1.1)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[13]
     NAME: ClassVar[str] = "B2V_ST1"
     FRAME_ID: ClassVar[int] = 0x1881D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="checksum",
-        byte=0,
-        algorithm="xor",
-        first_byte=1,
-        last_byte=7,
-    )
-    COUNTER: ClassVar[Counter | None] = Counter(
-        field="aliv",
-        dbc_name="B2V_ST1_ALIV",
-        modulus=15,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="checksum",
-            dbc_name="B2V_ST1_Checksum",
-            title="Checksum of B2V_ST1: byte 0 is the XOR of bytes 1 to 7",
-            reference="Table 1 row 7 (5.1.1)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        FilledField(
-            name="aliv",
-            dbc_name="B2V_ST1_ALIV",
-            title="Alive counter of B2V_ST1",
-            reference="Table 1 row 8 (5.1.1)",
-            length=4,
-            minimum=0,
-            maximum=15,
-            states={15: SignalState.INVALID},
-        ),
-        LabelledField(
-            name="bms",
-            dbc_name="B2V_ST1_BMS",
-            title="BMS state",
-            reference="Table 1 row 9 (5.1.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.BMS_STATE,
-            enum=enums.BmsState,
-        ),
-        LabelledField(
-            name="acc_relay",
-            dbc_name="B2V_ST1_ACC_Relay",
-            title="Accessory relay",
-            reference="Table 2 row 8 (5.1.2)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.ACCESSORY_RELAY_STATE,
-            enum=enums.AccessoryRelayState,
-        ),
-        LabelledField(
-            name="balance",
-            dbc_name="B2V_ST1_Balance",
-            title="Balancing state",
-            reference="Table 1 row 10 (5.1.1)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.BALANCING_STATE,
-            enum=enums.BalancingState,
-        ),
-        LabelledField(
-            name="chg_line",
-            dbc_name="B2V_ST1_ChgLine",
-            title="Charging gun connection",
-            reference="Table 1 row 11 (5.1.1)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGE_LINE,
-            enum=enums.ChargeLine,
-        ),
-        LabelledField(
-            name="chg_mode",
-            dbc_name="B2V_ST1_ChgMode",
-            title="Charging mode",
-            reference="Table 1 row 12 (5.1.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.CHARGE_MODE,
-            enum=enums.ChargeMode,
-        ),
-        LabelledField(
-            name="chg_st",
-            dbc_name="B2V_ST1_ChgSt",
-            title="Charging state",
-            reference="Table 1 row 13 (5.1.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.CHARGE_STATE,
-            enum=enums.ChargeState,
-        ),
-        LabelledField(
-            name="fault_levl",
-            dbc_name="B2V_ST1_Fault_Levl",
-            title="Highest alarm level",
-            reference="Table 1 row 15 (5.1.1)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_del_temp",
-            dbc_name="B2V_ST1_Flt_DelTemp",
-            title="Cell temperature difference abnormal",
-            reference="Table 12 row 1 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_over_temp",
-            dbc_name="B2V_ST1_Flt_OverTemp",
-            title="Cell temperature too high",
-            reference="Table 12 row 2 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_over_h_volt",
-            dbc_name="B2V_ST1_Flt_OverHVolt",
-            title="Pack overvoltage",
-            reference="Table 12 row 3 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_low_h_volt",
-            dbc_name="B2V_ST1_Flt_LowHVolt",
-            title="Pack undervoltage",
-            reference="Table 12 row 4 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_low_soc",
-            dbc_name="B2V_ST1_Flt_LowSOC",
-            title="SOC too low",
-            reference="Table 12 row 5 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_over_ucell",
-            dbc_name="B2V_ST1_Flt_OverUcell",
-            title="Cell voltage too high",
-            reference="Table 12 row 6 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_low_ucell",
-            dbc_name="B2V_ST1_Flt_LowUcell",
-            title="Cell voltage too low",
-            reference="Table 12 row 7 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_low_ins_res",
-            dbc_name="B2V_ST1_Flt_LowInsRes",
-            title="Insulation alarm",
-            reference="Table 12 row 8 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_ucell_uniformity",
-            dbc_name="B2V_ST1_Flt_UcellUniformity",
-            title="Cell voltage difference too large",
-            reference="Table 12 row 9 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_over_chg",
-            dbc_name="B2V_ST1_Flt_OverChg",
-            title="Charging current too high",
-            reference="Table 12 row 10 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_over_dis_chg",
-            dbc_name="B2V_ST1_Flt_OverDisChg",
-            title="Discharge current too high",
-            reference="Table 12 row 11 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_low_temp",
-            dbc_name="B2V_ST1_Flt_LowTemp",
-            title="Cell temperature too low",
-            reference="Table 12 row 12 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_del_para_u",
-            dbc_name="B2V_ST1_Flt_DelParaU",
-            title="Branch voltage difference too large (systems with parallel branches)",
-            reference="Table 12 row 13 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_hw",
-            dbc_name="B2V_ST1_Flt_HW",
-            title="BMS hardware fault",
-            reference="Table 12 row 14 (5.1.11)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.FAULT_LEVEL,
-            enum=enums.FaultLevel,
-        ),
-        LabelledField(
-            name="flt_over_soc",
-            dbc_name="B2V_ST1_Flt_OverSOC",
-            title="SOC too high",
-            reference="Table 12 row 15 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_soc_jump",
-            dbc_name="B2V_ST1_Flt_SOCJump",
-            title="SOC jump",
-            reference="Table 12 row 16 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_local_comm",
-            dbc_name="B2V_ST1_Flt_LocalComm",
-            title="BMS internal communication fault",
-            reference="Table 12 row 17 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_sys_not_matched",
-            dbc_name="B2V_ST1_Flt_SysNotMatched",
-            title="BMS system not matched",
-            reference="Table 12 row 18 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_hvil",
-            dbc_name="B2V_ST1_Flt_HVIL",
-            title="High voltage interlock alarm",
-            reference="Table 12 row 19 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_fog",
-            dbc_name="B2V_ST1_Flt_Fog",
-            title="Smoke alarm",
-            reference="Table 12 row 20 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        LabelledField(
-            name="flt_fire",
-            dbc_name="B2V_ST1_Flt_Fire",
-            title="Fire alarm",
-            reference="Table 12 row 21 (5.1.11)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.FAULT_FLAG,
-            enum=enums.FaultFlag,
-        ),
-        NumberField(
-            name="gbt32960_flt_num",
-            dbc_name="B2V_ST1_GBT32960FltNum",
-            title="Number of present faults as GB/T 32960.3 defines them",
-            reference="Table 1 row 16 (5.1.1)",
-            length=5,
-            minimum=0,
-            maximum=31,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[13])
+    COUNTER: ClassVar[Counter | None] = _counter_of(_MODELS[13])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[13], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -2747,79 +1028,15 @@ class B2V_ST2(Message):
     """Highest discharge current allowed (pulse) (电池包允许最大放电电流值(脉冲)): 0 to 6553.5 A.
     B2V_ST2_MaxLmt_DisChgCurr, Table 5 row 2 (5.1.4 SOP)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[14]
     NAME: ClassVar[str] = "B2V_ST2"
     FRAME_ID: ClassVar[int] = 0x1882D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="soc",
-            dbc_name="B2V_ST2_SOC",
-            title="Pack state of charge",
-            unit="%",
-            reference="Table 1 row 1 (5.1.1)",
-            length=8,
-            factor=0.4,
-            offset=0.0,
-            minimum=0.0,
-            maximum=102.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="soh",
-            dbc_name="B2V_ST2_SOH",
-            title="Pack state of health",
-            unit="%",
-            reference="Table 1 row 2 (5.1.1)",
-            length=8,
-            factor=0.4,
-            offset=0.0,
-            minimum=0.0,
-            maximum=102.0,
-            states={255: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="current",
-            dbc_name="B2V_ST2_Current",
-            title="Pack current, charging negative, discharging positive",
-            unit="A",
-            reference="Table 1 row 3 (5.1.1)",
-            length=16,
-            factor=0.1,
-            offset=-1000.0,
-            minimum=-1000.0,
-            maximum=5553.5,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="max_lmt_chg_curr",
-            dbc_name="B2V_ST2_MaxLmt_ChgCurr",
-            title="Highest recuperation current allowed (pulse)",
-            unit="A",
-            reference="Table 5 row 1 (5.1.4 SOP)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="max_lmt_dis_chg_curr",
-            dbc_name="B2V_ST2_MaxLmt_DisChgCurr",
-            title="Highest discharge current allowed (pulse)",
-            unit="A",
-            reference="Table 5 row 2 (5.1.4 SOP)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-            states={65535: SignalState.INVALID},
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[14], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -2848,66 +1065,15 @@ class B2V_ST3(Message):
     """High voltage on the bus bar side of the main relays (母线端高压(主继电器外侧)): 0 to 6553.5 V.
     B2V_ST3_Upack_Out, Table 1 row 5 (5.1.1)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[15]
     NAME: ClassVar[str] = "B2V_ST3"
     FRAME_ID: ClassVar[int] = 0x1883D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="pos_ins_res",
-            dbc_name="B2V_ST3_Pos_InsRes",
-            title="Insulation resistance of the positive pole",
-            unit="kohm",
-            reference="Table 11 row 1 (5.1.10)",
-            length=16,
-            factor=1.0,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65535.0,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="neg_ins_res",
-            dbc_name="B2V_ST3_Neg_InsRes",
-            title="Insulation resistance of the negative pole",
-            unit="kohm",
-            reference="Table 11 row 2 (5.1.10)",
-            length=16,
-            factor=1.0,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65535.0,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="upack_batt",
-            dbc_name="B2V_ST3_Upack_Batt",
-            title="High voltage on the battery side of the main relays",
-            unit="V",
-            reference="Table 1 row 4 (5.1.1)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-            states={65535: SignalState.INVALID},
-        ),
-        PhysicalField(
-            name="upack_out",
-            dbc_name="B2V_ST3_Upack_Out",
-            title="High voltage on the bus bar side of the main relays",
-            unit="V",
-            reference="Table 1 row 5 (5.1.1)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-            states={65535: SignalState.INVALID},
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[15], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -2946,91 +1112,15 @@ class B2V_ST4(Message):
     """Probe with the lowest temperature within its CSC (电芯温度最小值所在 CSC 内温度探针编号): 0 to 255.
     B2V_ST4_MinTemp_Position, Table 7 row 7 (5.1.6)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[16]
     NAME: ClassVar[str] = "B2V_ST4"
     FRAME_ID: ClassVar[int] = 0x1884D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="max_temp",
-            dbc_name="B2V_ST4_Max_Temp",
-            title="Highest cell temperature",
-            unit="degC",
-            reference="Table 7 row 1 (5.1.6)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID, 254: SignalState.ABNORMAL},
-        ),
-        PhysicalField(
-            name="min_temp",
-            dbc_name="B2V_ST4_Min_Temp",
-            title="Lowest cell temperature",
-            unit="degC",
-            reference="Table 7 row 2 (5.1.6)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID, 254: SignalState.ABNORMAL},
-        ),
-        PhysicalField(
-            name="avg_temp",
-            dbc_name="B2V_ST4_Avg_Temp",
-            title="Average cell temperature",
-            unit="degC",
-            reference="Table 7 row 3 (5.1.6)",
-            length=8,
-            factor=1.0,
-            offset=-50.0,
-            minimum=-50.0,
-            maximum=205.0,
-            states={255: SignalState.INVALID, 254: SignalState.ABNORMAL},
-        ),
-        NumberField(
-            name="max_temp_csc_no",
-            dbc_name="B2V_ST4_MaxTemp_CSCNo",
-            title="CSC with the highest temperature",
-            reference="Table 7 row 4 (5.1.6)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            states={255: SignalState.INVALID},
-        ),
-        NumberField(
-            name="max_temp_position",
-            dbc_name="B2V_ST4_MaxTemp_Position",
-            title="Probe with the highest temperature within its CSC",
-            reference="Table 7 row 5 (5.1.6)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        NumberField(
-            name="min_temp_csc_no",
-            dbc_name="B2V_ST4_MinTemp_CSCNo",
-            title="CSC with the lowest temperature",
-            reference="Table 7 row 6 (5.1.6)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            states={255: SignalState.INVALID},
-        ),
-        NumberField(
-            name="min_temp_position",
-            dbc_name="B2V_ST4_MinTemp_Position",
-            title="Probe with the lowest temperature within its CSC",
-            reference="Table 7 row 7 (5.1.6)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[16], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3056,59 +1146,15 @@ class B2V_ST5(Message):
     avg_ucell: float | SignalState = SignalState.INVALID
     """Average cell voltage (电芯电压平均值): 0 to 65.535 V. B2V_ST5_Avg_Ucell, Table 6 row 2 (5.1.5)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[17]
     NAME: ClassVar[str] = "B2V_ST5"
     FRAME_ID: ClassVar[int] = 0x1885D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="max_ucell",
-            dbc_name="B2V_ST5_Max_Ucell",
-            title="Highest cell voltage",
-            unit="V",
-            reference="Table 6 row 1 (5.1.5)",
-            length=16,
-            factor=0.001,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65.535,
-            states={8191: SignalState.INVALID, 8190: SignalState.ABNORMAL},
-        ),
-        NumberField(
-            name="max_ucell_csc_no",
-            dbc_name="B2V_ST5_MaxUcell_CSCNo",
-            title="CSC with the highest cell voltage",
-            reference="Table 6 row 4 (5.1.5)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            states={255: SignalState.INVALID},
-        ),
-        NumberField(
-            name="max_ucell_position",
-            dbc_name="B2V_ST5_MaxUcell_Position",
-            title="Cell with the highest voltage within its CSC",
-            reference="Table 6 row 5 (5.1.5)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        PhysicalField(
-            name="avg_ucell",
-            dbc_name="B2V_ST5_Avg_Ucell",
-            title="Average cell voltage",
-            unit="V",
-            reference="Table 6 row 2 (5.1.5)",
-            length=16,
-            factor=0.001,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65.535,
-            states={8191: SignalState.INVALID, 8190: SignalState.ABNORMAL},
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[17], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3131,46 +1177,15 @@ class B2V_ST6(Message):
     """Cell with the lowest voltage within its CSC (电芯电压最小值所在 CSC 内单体编号): 0 to 255.
     B2V_ST5_MinUcell_Position, Table 6 row 7 (5.1.5)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[18]
     NAME: ClassVar[str] = "B2V_ST6"
     FRAME_ID: ClassVar[int] = 0x1886D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 0.1
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="min_ucell",
-            dbc_name="B2V_ST5_Min_Ucell",
-            title="Lowest cell voltage",
-            unit="V",
-            reference="Table 6 row 3 (5.1.5)",
-            length=16,
-            factor=0.001,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65.535,
-            states={8191: SignalState.INVALID, 8190: SignalState.ABNORMAL},
-        ),
-        NumberField(
-            name="min_ucell_csc_no",
-            dbc_name="B2V_ST5_MinUcell_CSCNo",
-            title="CSC with the lowest cell voltage",
-            reference="Table 6 row 6 (5.1.5)",
-            length=8,
-            minimum=0,
-            maximum=255,
-            states={255: SignalState.INVALID},
-        ),
-        NumberField(
-            name="min_ucell_position",
-            dbc_name="B2V_ST5_MinUcell_Position",
-            title="Cell with the lowest voltage within its CSC",
-            reference="Table 6 row 7 (5.1.5)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[18], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3193,50 +1208,15 @@ class B2V_ElecEnergy(Message):
     """Energy of this charge (while the charger is online) (单次充电电量(充电机在线时)): 0 to 6553.5 kWh.
     B2V_SingleChgEnergy, Table 4 row 3 (5.1.4)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[19]
     NAME: ClassVar[str] = "B2V_ElecEnergy"
     FRAME_ID: ClassVar[int] = 0x18F1D0F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("VCU",)
     PERIOD: ClassVar[float | None] = 10.0
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="tot_chg_energy",
-            dbc_name="B2V_TotChgEnergy",
-            title="Total energy charged",
-            unit="kWh",
-            reference="Table 4 row 1 (5.1.4)",
-            length=24,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=1677721.5,
-        ),
-        PhysicalField(
-            name="tot_dischg_energy",
-            dbc_name="B2V_TotDischgEnergy",
-            title="Total energy discharged",
-            unit="kWh",
-            reference="Table 4 row 2 (5.1.4)",
-            length=24,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=1677721.5,
-        ),
-        PhysicalField(
-            name="single_chg_energy",
-            dbc_name="B2V_SingleChgEnergy",
-            title="Energy of this charge (while the charger is online)",
-            unit="kWh",
-            reference="Table 4 row 3 (5.1.4)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[19], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3263,50 +1243,15 @@ class B2C_Charger(Message):
     receiver act: Start to charge; safe is Normal Stop to charge. It has to be given: no value
     would be one of these."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[20]
     NAME: ClassVar[str] = "B2C_Charger"
     FRAME_ID: ClassVar[int] = 0x180156F3
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("CHG",)
     PERIOD: ClassVar[float | None] = 0.5
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="voltage_set",
-            dbc_name="B2C_S_VoltageSet",
-            title="AC charging voltage set point",
-            unit="V",
-            reference="Table 18 row 1 (5.3)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-        ),
-        PhysicalField(
-            name="current_set",
-            dbc_name="B2C_S_CurrentSet",
-            title="AC charging current set point",
-            unit="A",
-            reference="Table 18 row 2 (5.3)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-        ),
-        LabelledField(
-            name="charge_control",
-            dbc_name="B2V_S_ChargeControl",
-            title="AC charger control",
-            reference="Table 18 row 3 (5.3)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.CHARGE_CONTROL,
-            enum=enums.ChargeControl,
-            acting=ActingCodes(codes=frozenset({0}), safe=1),
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[20], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3359,105 +1304,15 @@ class C2B_ACStatus(Message):
     (充电机通讯故障(BMS 终止充电流程,待故障消失后重启充电过程)): 0 to 1. C2B_F_Charger_CAN, Table 19 row 8 (5.4). If not
     given: Normal."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[21]
     NAME: ClassVar[str] = "C2B_ACStatus"
     FRAME_ID: ClassVar[int] = 0x1801F356
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "CHG"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("BMU",)
     PERIOD: ClassVar[float | None] = 0.5
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        PhysicalField(
-            name="voltage_output",
-            dbc_name="C2B_N_VoltageOutput",
-            title="AC charger output voltage",
-            unit="V",
-            reference="Table 19 row 1 (5.4)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-        ),
-        PhysicalField(
-            name="current_output",
-            dbc_name="C2B_N_CurrentOutput",
-            title="AC charger output current",
-            unit="A",
-            reference="Table 19 row 2 (5.4)",
-            length=16,
-            factor=0.1,
-            offset=0.0,
-            minimum=0.0,
-            maximum=6553.5,
-        ),
-        LabelledField(
-            name="charger_hardware",
-            dbc_name="C2B_F_ChargerHardware",
-            title="AC charger hardware fault (the BMU ends charging and restarts once the fault is gone)",
-            reference="Table 19 row 3 (5.4)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGER_FAULT,
-            enum=enums.ChargerFault,
-        ),
-        LabelledField(
-            name="charger_over_temp",
-            dbc_name="C2B_F_ChargerOverTemp",
-            title="AC charger too hot (the BMS limits the charging power)",
-            reference="Table 19 row 4 (5.4)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGER_FAULT,
-            enum=enums.ChargerFault,
-        ),
-        LabelledField(
-            name="charger_input_voltage",
-            dbc_name="C2B_F_ChargerInputVoltage",
-            title="AC charger input voltage abnormal (the BMU ends charging and restarts once the fault is gone)",
-            reference="Table 19 row 5 (5.4)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGER_FAULT,
-            enum=enums.ChargerFault,
-        ),
-        LabelledField(
-            name="charger_ready",
-            dbc_name="C2B_St_ChargerReady",
-            title="AC charger initialisation (result of the self-test after power-on)",
-            reference="Table 19 row 6 (5.4)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGER_TIMEOUT,
-            enum=enums.ChargerTimeout,
-        ),
-        LabelledField(
-            name="charger_start",
-            dbc_name="C2B_St_ChargerStart",
-            title="AC charger operation (answer to the start command of the BMS)",
-            reference="Table 19 row 7 (5.4)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGER_OPERATION,
-            enum=enums.ChargerOperation,
-            acting=ActingCodes(codes=frozenset({0}), safe=1, reports=True),
-        ),
-        LabelledField(
-            name="charger_can",
-            dbc_name="C2B_F_Charger_CAN",
-            title="Charger communication fault (the BMS ends charging and restarts once the fault is gone)",
-            reference="Table 19 row 8 (5.4)",
-            length=1,
-            minimum=0,
-            maximum=1,
-            labels=enums.CHARGER_TIMEOUT,
-            enum=enums.ChargerTimeout,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[21], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3502,114 +1357,17 @@ class BMS_TMS_0(Message):
     crc: int | None = None
     """CRC (CRC 校验): 0 to 255. BMS_CRC, Table 19 row 8 (5.5)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[22]
     NAME: ClassVar[str] = "BMS_TMS_0"
     FRAME_ID: ClassVar[int] = 0x18FF45F4
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BMU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("TMS",)
     PERIOD: ClassVar[float | None] = 1.0
-    CHECKSUM: ClassVar[Checksum | None] = Checksum(
-        field="crc",
-        byte=7,
-        algorithm="BMS_CRC",
-        first_byte=0,
-        last_byte=6,
-    )
-    COUNTER: ClassVar[Counter | None] = Counter(
-        field="life",
-        dbc_name="BMS_Life",
-        modulus=256,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        LabelledField(
-            name="hv_rly_sts",
-            dbc_name="BMS_HVRlySts",
-            title="High voltage relay of the BMS",
-            reference="Table 19 row 4 (5.5)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.HV_RELAY_STATE,
-            enum=enums.HvRelayState,
-        ),
-        LabelledField(
-            name="chrg_sts",
-            dbc_name="BMS_ChrgSts",
-            title="Charging state",
-            reference="Table 19 row 3 (5.5)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.CHARGE_STATE,
-            enum=enums.ChargeState,
-        ),
-        LabelledField(
-            name="reqst_tms_hv_on",
-            dbc_name="BMS_ReqstTMSHVon",
-            title="High voltage request",
-            reference="Table 19 row 2 (5.5)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.HV_REQUEST,
-            enum=enums.HvRequest,
-            acting=ActingCodes(codes=frozenset({0}), safe=1),
-        ),
-        LabelledField(
-            name="reqst_set_tms_sts",
-            dbc_name="BMS_ReqstSetTMSts",
-            title="Mode requested by the BMS",
-            reference="Table 19 row 1 (5.5)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.THERMAL_MODE,
-            enum=enums.ThermalMode,
-            acting=ActingCodes(codes=frozenset({1, 2, 3}), safe=0),
-        ),
-        PhysicalField(
-            name="volt",
-            dbc_name="BMS_Volt",
-            title="Pack voltage (high byte first)",
-            unit="V",
-            reference="Table 19 row 5 (5.5)",
-            length=16,
-            factor=1.0,
-            offset=0.0,
-            minimum=0.0,
-            maximum=65535.0,
-        ),
-        PhysicalField(
-            name="set_temp",
-            dbc_name="BMS_SetTemp",
-            title="Set temperature",
-            unit="degC",
-            reference="Table 19 row 6 (5.5)",
-            length=8,
-            factor=1.0,
-            offset=-40.0,
-            minimum=-40.0,
-            maximum=215.0,
-        ),
-        FilledField(
-            name="life",
-            dbc_name="BMS_Life",
-            title="Alive counter of the BMS",
-            reference="Table 19 row 7 (5.5)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        FilledField(
-            name="crc",
-            dbc_name="BMS_CRC",
-            title="CRC",
-            reference="Table 19 row 8 (5.5)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-    )
+    CHECKSUM: ClassVar[Checksum | None] = _checksum_of(_MODELS[22])
+    COUNTER: ClassVar[Counter | None] = _counter_of(_MODELS[22])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[22], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3648,89 +1406,15 @@ class TMS_BMS_0(Message):
     fault_code: int = 0
     """Fault code of the cooling unit (TMS 故障码): 0 to 63. TMS_FaultCode, Table 20 row 6 (5.6)."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[23]
     NAME: ClassVar[str] = "TMS_BMS_0"
     FRAME_ID: ClassVar[int] = 0x18FFC13A
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "TMS"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("BMU",)
     PERIOD: ClassVar[float | None] = 1.0
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        LabelledField(
-            name="hv_rly_sts",
-            dbc_name="TMS_HVRlySts",
-            title="High voltage relay of the cooling unit",
-            reference="Table 20 row 2 (5.6)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.HV_RELAY_STATE,
-            enum=enums.HvRelayState,
-        ),
-        LabelledField(
-            name="work_sts",
-            dbc_name="TMS_WorkSts",
-            title="Mode of the cooling unit",
-            reference="Table 20 row 1 (5.6)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.THERMAL_MODE,
-            enum=enums.ThermalMode,
-        ),
-        PhysicalField(
-            name="output_water_temp",
-            dbc_name="TMS_OutputWaterTemp",
-            title="Outlet water temperature",
-            unit="degC",
-            reference="Table 20 row 3 (5.6)",
-            length=8,
-            factor=1.0,
-            offset=-40.0,
-            minimum=-40.0,
-            maximum=215.0,
-        ),
-        PhysicalField(
-            name="input_water_temp",
-            dbc_name="TMS_InputWaterTemp",
-            title="Return water temperature",
-            unit="degC",
-            reference="Table 20 row 4 (5.6)",
-            length=8,
-            factor=1.0,
-            offset=-40.0,
-            minimum=-40.0,
-            maximum=215.0,
-        ),
-        NumberField(
-            name="reqst_cap",
-            dbc_name="TMS_ReqstCap",
-            title="Power demanded by the cooling unit",
-            reference="Table 20 row 5 (5.6)",
-            length=16,
-            minimum=0,
-            maximum=65535,
-        ),
-        LabelledField(
-            name="fault_lv",
-            dbc_name="TMS_FaultLv",
-            title="Fault level of the cooling unit",
-            reference="Table 20 row 7 (5.6)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.WARNING_LEVEL,
-            enum=enums.WarningLevel,
-        ),
-        NumberField(
-            name="fault_code",
-            dbc_name="TMS_FaultCode",
-            title="Fault code of the cooling unit",
-            reference="Table 20 row 6 (5.6)",
-            length=6,
-            minimum=0,
-            maximum=63,
-        ),
-    )
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[23], ENUMS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -3763,73 +1447,16 @@ class BSU_BMS_0(Message):
     """Overtemperature of the swap connector interface (换电连接器对接口过温报警): 0 to 3. BSU_ConctorTempWarn,
     Table 17 row 5 (5.2.4). If not given: Inactive."""
 
+    MODEL: ClassVar[MessageModel] = _MODELS[24]
     NAME: ClassVar[str] = "BSU_BMS_0"
     FRAME_ID: ClassVar[int] = 0x18FFF8A7
+    EXTENDED: ClassVar[bool] = True
     LENGTH: ClassVar[int] = 8
     SENDER: ClassVar[str] = "BSU"
     RECEIVERS: ClassVar[tuple[str, ...]] = ("BMU", "VCU")
     PERIOD: ClassVar[float | None] = 0.1
-    COUNTER: ClassVar[Counter | None] = Counter(
-        field="live",
-        dbc_name="BSU_Live",
-        modulus=256,
-    )
-    FIELDS: ClassVar[Mapping[str, Field]] = fields_by_name(
-        FilledField(
-            name="live",
-            dbc_name="BSU_Live",
-            title="Alive counter of the swap controller",
-            reference="Table 17 row 1 (5.2.4)",
-            length=8,
-            minimum=0,
-            maximum=255,
-        ),
-        LabelledField(
-            name="lock",
-            dbc_name="BSU_Lock",
-            title="Lock feedback",
-            reference="Table 17 row 2 (5.2.4)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.LOCK_STATE,
-            enum=enums.LockState,
-        ),
-        LabelledField(
-            name="connect_st",
-            dbc_name="BSU_ConnectSt",
-            title="Swap connector state",
-            reference="Table 17 row 3 (5.2.4)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.CONNECTOR_STATE,
-            enum=enums.ConnectorState,
-        ),
-        PhysicalField(
-            name="connector_temp",
-            dbc_name="BSU_ConnectorTemp",
-            title="Temperature of the swap connector interface",
-            unit="degC",
-            reference="Table 17 row 4 (5.2.4)",
-            length=8,
-            factor=1.0,
-            offset=-40.0,
-            minimum=-40.0,
-            maximum=210.0,
-        ),
-        LabelledField(
-            name="conctor_temp_warn",
-            dbc_name="BSU_ConctorTempWarn",
-            title="Overtemperature of the swap connector interface",
-            reference="Table 17 row 5 (5.2.4)",
-            length=2,
-            minimum=0,
-            maximum=3,
-            labels=enums.WARNING_LEVEL,
-            enum=enums.WarningLevel,
-        ),
-    )
+    COUNTER: ClassVar[Counter | None] = _counter_of(_MODELS[24])
+    FIELDS: ClassVar[Mapping[str, Field]] = _fields_of(_MODELS[24], ENUMS)
 
 
 MESSAGES: tuple[type[Message], ...] = (

@@ -51,7 +51,7 @@ class Transmitter:
         counter = self._counters.peek(kind)
         data = self._codec.encode(message, counter=counter, renew=True, safe=safe)
         return can.Message(
-            arbitration_id=kind.FRAME_ID, is_extended_id=True, data=data, is_rx=False
+            arbitration_id=kind.FRAME_ID, is_extended_id=kind.EXTENDED, data=data, is_rx=False
         )
 
     def send(self, message: Message) -> None:

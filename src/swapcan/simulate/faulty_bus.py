@@ -170,8 +170,8 @@ class FaultyBus(can.BusABC):
         super().shutdown()
 
     def _kind(self, frame: can.Message) -> type[Message] | None:
-        entry = self._entries.by_frame_id.get(frame.arbitration_id)
-        whole = frame.is_extended_id and not frame.is_remote_frame and not frame.is_error_frame
+        entry = self._entries.entry(frame.arbitration_id, extended=frame.is_extended_id)
+        whole = not frame.is_remote_frame and not frame.is_error_frame
         return entry.type if entry and whole and len(frame.data) == entry.type.LENGTH else None
 
     def _hits(self, fault: str, frame: can.Message, kind: type[Message] | None) -> bool:

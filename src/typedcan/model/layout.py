@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from decimal import Decimal
 
 from typedcan.model.protocol import ByteOrder, Signal
@@ -25,6 +25,16 @@ def _downwards(start: int, length: int) -> Iterator[int]:
     for _ in range(length):
         yield bit
         bit = bit + 15 if bit % 8 == 0 else bit - 1
+
+
+def in_bit_order(signals: Iterable[Signal]) -> list[Signal]:
+    """Signals in the order in which DBC readers list them: by start bit, bytes from the left."""
+    return sorted(signals, key=_bit_order)
+
+
+def _bit_order(signal: Signal) -> int:
+    from_left = 8 * (signal.start // 8) + 7 - signal.start % 8
+    return signal.start if signal.byte_order is ByteOrder.INTEL else from_left
 
 
 def whole_byte(signal: Signal) -> int | None:

@@ -178,6 +178,13 @@ class Message:
         when = f", every {self.period} ms" if self.period else ""
         return f"{self.english}. Sent {self.condition}{when}."
 
+    def signal(self, name: str) -> Signal:
+        """The signal of that name; raises `KeyError`."""
+        for signal in self.signals:
+            if signal.name == name:
+                return signal
+        raise KeyError(name)
+
     @property
     def receivers(self) -> tuple[str, ...]:
         """Who receives any of its signals, in order of appearance."""

@@ -9,7 +9,7 @@ from types import MappingProxyType
 import can
 
 from typedcan.wire.acting import safe_codes
-from typedcan.wire.database import Database, database
+from typedcan.wire.database import Database, Entry, database
 from typedcan.wire.errors import UnknownFrameError
 from typedcan.wire.message import Message
 from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
@@ -42,8 +42,15 @@ class Codec:
 
     @cached_property
     def readers(self) -> Mapping[int, Reader]:
-        """What checks and decodes the payloads of each message, by its 29-bit identifier."""
-        entries = self._database.by_frame_id
+        """What checks and decodes the payloads of each message with a 29-bit identifier."""
+        return self._readers(self._database.extended)
+
+    @cached_property
+    def standard_readers(self) -> Mapping[int, Reader]:
+        """The same for 11-bit identifiers: one number in both widths is two messages."""
+        return self._readers(self._database.standard)
+
+    def _readers(self, entries: Mapping[int, Entry]) -> Mapping[int, Reader]:
         return {number: Reader(entry, self._algorithms) for number, entry in entries.items()}
 
     def encode(
@@ -76,13 +83,19 @@ class Codec:
             return sealed(kind, data, self._algorithms)
         return data
 
-    def decode(self, frame_id: int, data: bytes, *, verify: bool = True) -> Message:
-        """The message in the payload of an extended frame.
+    def decode(
+        self, frame_id: int, data: bytes, *, verify: bool = True, extended: bool | None = None
+    ) -> Message:
+        """The message in the payload of a frame.
 
-        Raises `UnknownFrameError` for an identifier that the protocol has not, `LengthError` for
-        a payload of another length, and `ChecksumError`, unless ``verify`` is False.
+        ``extended`` says whether the identifier has 29 bits or 11; without it that of 29 bits is
+        meant where the protocol has both. Raises `UnknownFrameError` for an identifier that it has
+        not, `LengthError` for a payload of another length, and `ChecksumError`, unless ``verify``
+        is False.
         """
-        reader = self.readers.get(frame_id)
+        reader = None if extended is False else self.readers.get(frame_id)
+        if reader is None and not extended:
+            reader = self.standard_readers.get(frame_id)
         if reader is None:
             raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
         reader.check(data, verify=verify)
@@ -91,19 +104,19 @@ class Codec:
     def decode_frame(self, frame: can.Message, *, verify: bool = True) -> Message:
         """The message in a frame of python-can; raises as `decode`.
 
-        Error frames, remote frames and frames with an 11-bit identifier are unknown frames,
-        whatever their number.
+        Error frames and remote frames are unknown frames, whatever their number.
         """
-        if reason := _not_a_data_frame(frame):
+        if reason := self._refusal(frame):
             raise UnknownFrameError(frame.arbitration_id, reason)
-        return self.decode(frame.arbitration_id, bytes(frame.data), verify=verify)
+        data, extended = bytes(frame.data), frame.is_extended_id
+        return self.decode(frame.arbitration_id, data, verify=verify, extended=extended)
 
-
-def _not_a_data_frame(frame: can.Message) -> str | None:
-    if frame.is_error_frame:
-        return "is an error frame"
-    if frame.is_remote_frame:
-        return "is a remote frame, it carries no data"
-    if not frame.is_extended_id:
-        return "has an 11-bit identifier, the protocol has 29-bit ones"
-    return None
+    def _refusal(self, frame: can.Message) -> str | None:
+        """Why a frame carries no message, whatever its number."""
+        if frame.is_error_frame:
+            return "is an error frame"
+        if frame.is_remote_frame:
+            return "is a remote frame, it carries no data"
+        if not frame.is_extended_id and not self.standard_readers:
+            return "has an 11-bit identifier, the protocol has 29-bit ones"
+        return None

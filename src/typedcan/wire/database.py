@@ -1,18 +1,13 @@
-"""The packaged DBC, read once by cantools and matched with the generated classes."""
+"""What packs and unpacks each message of a protocol: formats made from the model, once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 
-import cantools
-from cantools.database.can import Database as CantoolsDatabase
-
-from typedcan.wire.errors import DatabaseError
 from typedcan.wire.message import Message
-from typedcan.wire.packing import Packer
+from typedcan.wire.packing import Packer, packer_of
 from typedcan.wire.protocol import Protocol
 
 Decoder = Callable[[Sequence[int]], Message]
@@ -34,53 +29,34 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Database:
-    """All messages, by class and by 29-bit identifier."""
+    """All messages, by class and by identifier: 29 bits and 11 bits apart."""
 
     by_type: Mapping[type[Message], Entry]
-    by_frame_id: Mapping[int, Entry]
+    extended: Mapping[int, Entry]
+    standard: Mapping[int, Entry]
 
-
-def dbc_text(protocol: Protocol) -> str:
-    """The text of the DBC that a protocol's package was built with."""
-    return resources.files(protocol.package).joinpath(_dbc_name(protocol)).read_text("ascii")
+    def entry(self, frame_id: int, *, extended: bool) -> Entry | None:
+        """Of the message with an identifier of that width, if there is one."""
+        return (self.extended if extended else self.standard).get(frame_id)
 
 
 @cache
 def database(protocol: Protocol) -> Database:
-    """Read the packaged DBC; raises `DatabaseError` where it does not fit the generated code."""
-    return match(dbc_text(protocol), protocol)
-
-
-def match(text: str, protocol: Protocol) -> Database:
-    """Pair a DBC text with the generated classes; raises `DatabaseError` where they differ."""
-    dbc = cantools.database.load_string(text, "dbc")
-    if not isinstance(dbc, CantoolsDatabase):
-        raise DatabaseError("the packaged file is no CAN database")
-    attributes = dbc.dbc.attributes if dbc.dbc else {}
-    digest = attributes["SpecDigest"].value if "SpecDigest" in attributes else "none"
-    if digest != protocol.digest:
-        raise DatabaseError(
-            f"{_dbc_name(protocol)} has spec digest {digest}, the generated code {protocol.digest}:"
-            " run `dbcspec generate`, or install swapcan again"
-        )
-    entries = [_entry(message, dbc, protocol) for message in protocol.messages]
+    """What packs and unpacks the messages of a protocol."""
+    entries = [_entry(message, protocol) for message in protocol.messages]
     return Database(
         by_type={entry.type: entry for entry in entries},
-        by_frame_id={entry.type.FRAME_ID: entry for entry in entries},
+        extended={each.type.FRAME_ID: each for each in entries if each.type.EXTENDED},
+        standard={each.type.FRAME_ID: each for each in entries if not each.type.EXTENDED},
     )
 
 
-def _dbc_name(protocol: Protocol) -> str:
-    return f"{protocol.name}.dbc"
-
-
-def _entry(message: type[Message], dbc: CantoolsDatabase, protocol: Protocol) -> Entry:
-    in_dbc = dbc.get_message_by_name(message.NAME)
-    ours = [field.dbc_name for field in message.FIELDS.values()]
-    # Decoders take raw values by position, in the order in which cantools lists signals.
-    if ours != [signal.name for signal in in_dbc.signals]:
-        raise DatabaseError(
-            f"{message.NAME} has other signals, or in another order, in {_dbc_name(protocol)}"
-        )
-    counter = Packer(in_dbc, only=[message.COUNTER.dbc_name]) if message.COUNTER else None
-    return Entry(message, Packer(in_dbc), protocol.decoders[message], counter)
+def _entry(message: type[Message], protocol: Protocol) -> Entry:
+    # Decoders take raw values by position, in the order of the fields.
+    counter = [message.FIELDS[message.COUNTER.field].signal] if message.COUNTER else []
+    return Entry(
+        type=message,
+        packer=packer_of(message.MODEL),
+        decode=protocol.decoders[message],
+        counter=Packer(counter, message.LENGTH) if counter else None,
+    )

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from enum import Enum, IntEnum
 from typing import Any
 
+from typedcan.model.protocol import Signal
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.plain import character, integer, real_number, shown, whole_number
 
@@ -57,6 +58,8 @@ class Field:
 
     Parameters
     ----------
+    signal
+        All that the model knows of it: start, byte order, sign, titles, errata and so on.
     name, dbc_name
         The name here and in the DBC file and the standard.
     title, unit, reference
@@ -75,6 +78,7 @@ class Field:
         Which raw values act, where some do.
     """
 
+    signal: Signal = field(repr=False)
     name: str
     dbc_name: str
     title: str

@@ -74,7 +74,7 @@ class Link:
         kind = type(message)
         data = self._codec.encode(message, counter=self._sent.peek(kind), renew=True)
         frame = can.Message(
-            arbitration_id=kind.FRAME_ID, is_extended_id=True, data=data, is_rx=False
+            arbitration_id=kind.FRAME_ID, is_extended_id=kind.EXTENDED, data=data, is_rx=False
         )
         self._bus.send(frame, timeout=timeout)
         self._sent.advance(kind)

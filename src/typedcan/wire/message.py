@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
 
+from typedcan.model import protocol as model
 from typedcan.wire.codes import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
 from typedcan.wire.fields import (
     ActingCodes,
@@ -47,8 +48,11 @@ __all__ = [
     "Value",
     "code_table",
     "draft_of",
-    "fields_by_name",
 ]
+
+
+Selected = Mapping[str, tuple[str, tuple[int, ...]]]
+"""Fields of branches: the field that selects each, and the raw values with which it does."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,9 +78,11 @@ class Counter:
 class Message:
     """Base of all typed messages; each is a frozen dataclass with one field per signal.
 
-    Class attributes: ``NAME`` and ``FRAME_ID`` of the standard, ``LENGTH`` in bytes, ``SENDER``
-    and ``RECEIVERS``, ``PERIOD`` in seconds or None where it is sent on events only, ``FIELDS``
-    by name in the order of their bits, ``CHECKSUM`` and ``COUNTER`` where there is one.
+    Class attributes: ``MODEL``, all that the model knows of it, ``NAME`` and ``FRAME_ID`` of the
+    standard, whether the identifier is ``EXTENDED``, ``LENGTH`` in bytes, ``SENDER`` and
+    ``RECEIVERS``, ``PERIOD`` in seconds or None where it is sent on events only, ``FIELDS`` by name
+    in the order of their bits, ``CHECKSUM`` and ``COUNTER`` where there is one, ``SELECTED`` for
+    the fields of branches.
 
     A message is what it was made with; `to_raw` and sending refuse values that its fields cannot
     carry. A field with codes takes its own enum or a plain code; an int that is known at run time
@@ -85,8 +91,10 @@ class Message:
 
     __slots__ = ()
 
+    MODEL: ClassVar[model.Message]
     NAME: ClassVar[str]
     FRAME_ID: ClassVar[int]
+    EXTENDED: ClassVar[bool]
     LENGTH: ClassVar[int]
     SENDER: ClassVar[str]
     RECEIVERS: ClassVar[tuple[str, ...]]
@@ -94,22 +102,29 @@ class Message:
     FIELDS: ClassVar[Mapping[str, Field]]
     CHECKSUM: ClassVar[Checksum | None] = None
     COUNTER: ClassVar[Counter | None] = None
+    SELECTED: ClassVar[Selected] = MappingProxyType({})
 
     def to_raw(self) -> dict[str, int]:
-        """DBC signal names and raw values; raises `EncodeError` at the first that cannot be."""
+        """DBC names and raw values of the signals that are there.
+
+        Raises `EncodeError` at the first value that cannot be sent.
+        """
         name = self.NAME
-        return {
-            part.dbc_name: part.to_raw(name, getattr(self, part.name))
-            for part in self.FIELDS.values()
-        }
+        parts: Iterable[Field] = self.FIELDS.values()
+        if self.SELECTED:
+            parts = [part for part in parts if self._is_there(part.name)]
+        return {part.dbc_name: part.to_raw(name, getattr(self, part.name)) for part in parts}
+
+    def _is_there(self, field: str) -> bool:
+        """Whether the selectors select a field of a branch."""
+        if field not in self.SELECTED:
+            return True
+        selector, values = self.SELECTED[field]
+        raw = self.FIELDS[selector].to_raw
+        return self._is_there(selector) and raw(self.NAME, getattr(self, selector)) in values
 
 
 MessageT = TypeVar("MessageT", bound=Message)
-
-
-def fields_by_name(*fields: Field) -> Mapping[str, Field]:
-    """The read-only ``FIELDS`` of a message class."""
-    return MappingProxyType({part.name: part for part in fields})
 
 
 def draft_of(message: type[Message]) -> type[Any]:

@@ -6,28 +6,42 @@ they look signals up, scale and check. Its compiled formats are the part that mo
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from operator import itemgetter
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
-from cantools.database.can import Message as CantoolsMessage
+from cantools.database.conversion import BaseConversion
 from cantools.database.utils import create_encode_decode_formats
+
+from typedcan.model.layout import in_bit_order
+from typedcan.model.protocol import ByteOrder, Message, Signal
+
+
+class _Bits(NamedTuple):
+    """A signal as far as cantools looks at it for its bit formats."""
+
+    name: str
+    start: int
+    length: int
+    byte_order: str
+    is_signed: bool
+    conversion: BaseConversion
 
 
 class Packer:
-    """Packs and unpacks the signals of one message, of either byte order or both.
+    """Packs and unpacks signals of a message of so many bytes, of either byte order or both.
 
-    ``only`` are the signals to look at, by their DBC names; without it all.
+    The signals stand in the order of their bits.
     """
 
-    def __init__(self, message: CantoolsMessage, only: Collection[str] | None = None) -> None:
-        signals = [one for one in message.signals if only is None or one.name in only]
-        formats = create_encode_decode_formats(signals, message.length)
+    def __init__(self, signals: Sequence[Signal], length: int) -> None:
+        bits: Any = [_bits(signal) for signal in signals]
+        formats = create_encode_decode_formats(bits, length)
         names = [signal.name for signal in signals]
         orders = {signal.byte_order for signal in signals}
-        self._length = message.length
-        self._big: Any = formats.big_endian if "big_endian" in orders else None
-        self._little: Any = formats.little_endian if "little_endian" in orders else None
+        self._length = length
+        self._big: Any = formats.big_endian if ByteOrder.MOTOROLA in orders else None
+        self._little: Any = formats.little_endian if ByteOrder.INTEL in orders else None
         self._pick: Any = itemgetter(*names) if len(names) > 1 else lambda raw: tuple(raw.values())
 
     @property
@@ -56,3 +70,19 @@ class Packer:
             return big
         both = int.from_bytes(little, "big") | int.from_bytes(big, "big")
         return both.to_bytes(self._length, "big")
+
+
+def packer_of(message: Message) -> Packer:
+    """What packs all signals of a message, in the order of their bits."""
+    return Packer(in_bit_order(message.signals), message.length)
+
+
+def _bits(signal: Signal) -> _Bits:
+    return _Bits(
+        name=signal.name,
+        start=signal.start,
+        length=signal.length,
+        byte_order="little_endian" if signal.byte_order is ByteOrder.INTEL else "big_endian",
+        is_signed=signal.signed,
+        conversion=BaseConversion.factory(is_float=signal.is_float),
+    )

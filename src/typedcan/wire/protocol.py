@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from typedcan.model import protocol as model
 from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
 from typedcan.wire.message import Message
 
@@ -72,31 +73,38 @@ class Request:
     answers: tuple[type[Message], ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Protocol:
-    """What `dbcspec generate` writes of a protocol beside its messages.
+    """A protocol with the classes of its messages.
 
     Parameters
     ----------
-    name, digest
-        Of the protocol and its resolved model; the DBC in ``package`` has the same.
-    nodes
-        The names of all nodes.
+    model
+        All that is known of it.
+    name, digest, nodes
+        Of the model: its name, what changes whenever anything of it changes, the names of all
+        nodes.
     messages, decoders
         The message classes, and what makes each from its raw values.
     conditional
         The messages that have a period but are sent only while a condition holds.
+    transfers, requests
+        By fields of the classes.
     """
 
+    model: model.Protocol
     name: str
     digest: str
-    package: str
     nodes: tuple[str, ...]
     messages: tuple[type[Message], ...]
     decoders: Mapping[type[Message], Callable[[Sequence[int]], Message]]
     conditional: tuple[type[Message], ...]
     transfers: tuple[Transfer, ...]
     requests: tuple[Request, ...]
+
+    def __repr__(self) -> str:
+        count = len(self.messages)
+        return f"<Protocol {self.name}: {count} messages, digest {self.digest}>"
 
     def message(self, name: str) -> type[Message]:
         """The message class of that name; raises `UnknownMessageError`."""
@@ -128,3 +136,61 @@ class Protocol:
         if node not in self.nodes:
             known = ", ".join(self.nodes)
             raise UnknownNodeError(f"there is no node {node!r}; known: {known}")
+
+
+def bind(
+    protocol: model.Protocol,
+    messages: Sequence[type[Message]],
+    decoders: Mapping[type[Message], Callable[[Sequence[int]], Message]],
+) -> Protocol:
+    """A protocol of the model with its message classes; they are in the model's order."""
+    classes = {kind.MODEL.name: kind for kind in messages}
+    fields = {
+        signal.name: FieldRef(kind, signal.python_name)
+        for kind in messages
+        for signal in kind.MODEL.signals
+    }
+    return Protocol(
+        model=protocol,
+        name=protocol.name,
+        digest=protocol.digest,
+        nodes=tuple(node.name for node in protocol.nodes),
+        messages=tuple(messages),
+        decoders=decoders,
+        conditional=tuple(
+            kind
+            for kind in messages
+            if kind.PERIOD and kind.MODEL.send_type is model.SendType.IF_ACTIVE
+        ),
+        transfers=tuple(_transfer(each, classes, fields) for each in protocol.transfers),
+        requests=tuple(
+            Request(
+                field=fields[each.signal],
+                code=each.code,
+                withdraw=each.withdraw,
+                answers=tuple(classes[name] for name in each.answers),
+            )
+            for each in protocol.requests
+        ),
+    )
+
+
+def _transfer(
+    transfer: model.Transfer,
+    classes: Mapping[str, type[Message]],
+    fields: Mapping[str, FieldRef],
+) -> Transfer:
+    return Transfer(
+        name=transfer.name,
+        title=transfer.english,
+        messages=tuple(classes[name] for name in transfer.messages),
+        items=tuple(fields[name] for name in transfer.items),
+        count=transfer.count,
+        count_field=fields.get(transfer.count_signal),
+        frame_number=fields.get(transfer.frame_number),
+        group=fields.get(transfer.group),
+        groups_field=fields.get(transfer.groups_signal),
+        length_field=fields.get(transfer.length_signal),
+        numbered_within_group=transfer.numbered_within_group,
+        fill=transfer.fill,
+    )

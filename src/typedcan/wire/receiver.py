@@ -128,7 +128,8 @@ class Receiver:
     """Decodes the frames of one bus in their order, checks and counts them; needs no bus itself."""
 
     def __init__(self, codec: Codec) -> None:
-        self._readers = codec.readers
+        self._extended = codec.readers
+        self._standard = codec.standard_readers
         self._counters = ReceiveCounters()
         self._received = 0
         self._counts: Counter[str] = Counter()
@@ -141,15 +142,11 @@ class Receiver:
     def take(self, frame: can.Message) -> Received | Fault | None:
         """The message in a frame, or why a frame of a known message is refused.
 
-        None for a foreign frame: an unknown or 11-bit identifier, a remote or an error frame.
+        None for a foreign frame: an unknown identifier, a remote or an error frame.
         """
-        reader = self._readers.get(frame.arbitration_id)
-        if (
-            reader is None
-            or frame.is_error_frame
-            or frame.is_remote_frame
-            or not frame.is_extended_id
-        ):
+        readers = self._extended if frame.is_extended_id else self._standard
+        reader = readers.get(frame.arbitration_id)
+        if reader is None or frame.is_error_frame or frame.is_remote_frame:
             self._counts["foreign"] += 1
             return None
         data = bytes(frame.data)

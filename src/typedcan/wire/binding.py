@@ -1,0 +1,158 @@
+"""What the model says of a message, as the parts of its class: fields, checksum and so on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from enum import IntEnum
+from types import MappingProxyType
+from typing import Any
+
+from typedcan.model import protocol as model
+from typedcan.model.kinds import Kind, kind_of
+from typedcan.model.layout import in_bit_order, whole_byte
+from typedcan.wire.fields import (
+    ActingCodes,
+    CharacterField,
+    Field,
+    FilledField,
+    FloatField,
+    LabelledField,
+    NumberField,
+    PhysicalField,
+    SignalState,
+)
+from typedcan.wire.message import Checksum, Counter, Selected
+
+_KINDS: Mapping[Kind, type[Field]] = {
+    Kind.PHYSICAL: PhysicalField,
+    Kind.FLOAT: FloatField,
+    Kind.NUMBER: NumberField,
+    Kind.CHARACTER: CharacterField,
+    Kind.FILLED: FilledField,
+}
+
+
+def fields_of(message: model.Message, enums: Mapping[str, type[IntEnum]]) -> Mapping[str, Field]:
+    """The fields of a message by their names, in the order of their bits.
+
+    ``enums`` are those of the value tables, by the names of these.
+    """
+    fields = (_field(message, signal, enums) for signal in in_bit_order(message.signals))
+    return MappingProxyType({field.name: field for field in fields})
+
+
+def checksum_of(message: model.Message) -> Checksum | None:
+    """Where the checksum stands and what it covers, if there is one."""
+    checksum = message.checksum
+    if checksum is None:
+        return None
+    carrier = message.signal(checksum.signal)
+    byte = whole_byte(carrier)
+    if byte is None:
+        return None  # the linter says so
+    return Checksum(
+        field=carrier.python_name,
+        byte=byte,
+        algorithm=checksum.algorithm,
+        first_byte=checksum.first_byte,
+        last_byte=checksum.last_byte,
+    )
+
+
+def counter_of(message: model.Message) -> Counter | None:
+    """Which field counts the frames, and how far, if one does."""
+    if message.counter is None:
+        return None
+    signal = message.signal(message.counter.signal)
+    return Counter(field=signal.python_name, dbc_name=signal.name, modulus=message.counter.modulus)
+
+
+def selected_of(message: model.Message) -> Selected:
+    """The fields of branches: the field of the selector, and the raw values that select them."""
+    names = {signal.name: signal.python_name for signal in message.signals}
+    return MappingProxyType(
+        {
+            signal.python_name: (names[signal.multiplexer], signal.selectors)
+            for signal in message.signals
+            if signal.multiplexer in names
+        }
+    )
+
+
+def _field(
+    message: model.Message, signal: model.Signal, enums: Mapping[str, type[IntEnum]]
+) -> Field:
+    kind = kind_of(message, signal)
+    facts = _facts(signal, kind)
+    if kind is Kind.LABELLED and signal.value_table:
+        return LabelledField(**facts, enum=enums[signal.value_table.name])
+    return _KINDS[kind](**facts)
+
+
+def _facts(signal: model.Signal, kind: Kind) -> dict[str, Any]:
+    facts: dict[str, Any] = {
+        "signal": signal,
+        "name": signal.python_name,
+        "dbc_name": signal.name,
+        "title": signal.english,
+        "unit": signal.unit,
+        "reference": signal.reference,
+        "length": signal.length,
+        "acting": _acting(signal),
+    }
+    if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
+        facts["labels"] = MappingProxyType(signal.value_table.labels())
+    if kind is not Kind.FLOAT:
+        facts["states"] = _states(signal)
+    if kind in (Kind.PHYSICAL, Kind.FLOAT):
+        facts |= {"factor": float(signal.factor), "offset": float(signal.offset)}
+    minimum, maximum = _limits(signal, kind)
+    return {**facts, "minimum": minimum, "maximum": maximum}
+
+
+def _acting(signal: model.Signal) -> ActingCodes | None:
+    acting = signal.acting
+    if acting is None:
+        return None
+    return ActingCodes(codes=frozenset(acting.codes), safe=acting.safe, reports=acting.reports)
+
+
+def _states(signal: model.Signal) -> Mapping[int, SignalState]:
+    pairs = (
+        (signal.invalid_code, SignalState.INVALID),
+        (signal.abnormal_code, SignalState.ABNORMAL),
+    )
+    return MappingProxyType({code: state for code, state in pairs if code is not None})
+
+
+def _limits(signal: model.Signal, kind: Kind) -> tuple[float, float]:
+    """What can be sent: physical values, of fields with codes raw ones."""
+    if kind is Kind.FLOAT:
+        return float(signal.minimum), float(signal.maximum)
+    low, high = _sendable(signal, kind)
+    return _physical_limits(signal, low, high) if kind is Kind.PHYSICAL else (low, high)
+
+
+def _sendable(signal: model.Signal, kind: Kind) -> tuple[int, int]:
+    """The raw values of the range and, where they make the field, of the codes; if they fit."""
+    (low, high), (least, most) = signal.raw_range, signal.raw_limits
+    if kind is Kind.LABELLED and signal.value_table:
+        codes = [code.value for code in signal.value_table.codes]
+        low, high = min(low, *codes), max(high, *codes)
+    return max(low, least), min(high, most)
+
+
+def _physical_limits(signal: model.Signal, low: int, high: int) -> tuple[float, float]:
+    """The physical values of the raw ends; those of over 53 bits, rounded towards each other."""
+    factor, offset = float(signal.factor), float(signal.offset)
+    # In the arithmetic of the decoder, so that limits hold to the last bit.
+    ends = sorted(raw * factor + offset for raw in (low, high))
+    middle = sum(ends) / 2
+
+    def inwards(value: float) -> float:
+        while not low <= round((value - offset) / factor) <= high and value != middle:
+            value = math.nextafter(value, middle)
+        return value
+
+    return inwards(ends[0]), inwards(ends[1])
