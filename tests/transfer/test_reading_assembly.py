@@ -165,7 +165,7 @@ def test_frames_of_nothing_but_fill_are_no_contradiction() -> None:
 def test_numbers_that_there_cannot_be_are_reported(csc: int | SignalState, number: int) -> None:
     assembler = assembler_for(EVEN)
     frame = B2V_Ucell(csc_no=csc, frame_no=number, csc_no_ucell_n=3.0)
-    text = f"frame {number} of CSC {csc}; the pack has CSCs 1 to 2"
+    text = f"frame {number} of CSC {csc}; there are CSCs 1 to 2"
     assert assembler.take(frame, 1.0) == (Problem("cell_voltages", "number", text, 1.0),)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import (
@@ -14,18 +13,16 @@ from swapcan.messages import (
     B2V_SysCode4,
     Manufacturer,
 )
-from swapcan.transfer.layout import characters, create, text_slots
 from swapcan.transfer.vin import vin_problem
+from typedcan.transfer.layout import create
+from typedcan.transfer.text import text_frames
 from typedcan.wire.errors import TransferError
-from typedcan.wire.protocol import Transfer
 
 VIN = PROTOCOL.transfer("vin")
 PACK_CODE = PROTOCOL.transfer("pack_code")
 
 MANUFACTURER = "manufacturer"
 """The field beside the pack code that says who made the battery."""
-
-_CHARACTERS = {transfer.name: characters(transfer) for transfer in (VIN, PACK_CODE)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +55,7 @@ def split_vin(vin: str, *, check: bool = False) -> tuple[V2B_VIN, ...]:
         raise TransferError(VIN.name, f"a VIN has {VIN.count} characters, not {len(vin)}")
     if check and (problem := vin_problem(vin)):
         raise TransferError(VIN.name, problem)
-    return tuple(create(V2B_VIN, values) for values in _frames(VIN, vin))
+    return tuple(create(V2B_VIN, values) for values in text_frames(VIN, vin))
 
 
 def split_pack_code(
@@ -74,30 +71,10 @@ def split_pack_code(
     codes = B2V_SysCode1.FIELDS[MANUFACTURER]
     if not codes.minimum <= manufacturer <= codes.maximum:
         raise TransferError(PACK_CODE.name, f"there is no manufacturer code {manufacturer}")
-    first, second, third, fourth = _frames(PACK_CODE, code)
+    first, second, third, fourth = text_frames(PACK_CODE, code)
     return (
         create(B2V_SysCode1, {**first, MANUFACTURER: manufacturer, "sys_code_length": len(code)}),
         create(B2V_SysCode2, second),
         create(B2V_SysCode3, third),
         create(B2V_SysCode4, fourth),
     )
-
-
-def _frames(transfer: Transfer, text: str) -> list[dict[str, Any]]:
-    """The fields of each frame; those beyond the end of the text hold the fill."""
-    allowed = _CHARACTERS[transfer.name]
-    for position, letter in enumerate(text, 1):
-        if letter not in allowed:
-            problem = f"character {position}, {letter!r}, is none of {''.join(sorted(allowed))}"
-            raise TransferError(transfer.name, problem)
-    frames: list[dict[str, Any]] = []
-    rest = text
-    for slot in text_slots(transfer):
-        fields = slot.used + slot.unused
-        part, rest = rest[: len(fields)], rest[len(fields) :]
-        values: dict[str, Any] = dict.fromkeys(fields, transfer.fill)
-        values.update(zip(fields, part, strict=False))
-        if transfer.frame_number:
-            values[transfer.frame_number.field] = slot.number
-        frames.append(values)
-    return frames

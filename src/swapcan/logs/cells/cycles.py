@@ -14,7 +14,7 @@ from swapcan.logs.cells.assembly import CycleCounts
 from swapcan.logs.cells.readings import CELLS, PROBES, CellsError, Readings, frames_of
 from swapcan.logs.cells.stream import Cycles, Layout, Stream
 from swapcan.logs.columns import MessageColumns
-from swapcan.transfer.shape import Totals
+from typedcan.transfer.shape import Totals
 
 Channel = int | str | None
 

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Protocol
 
-from swapcan.transfer.shape import Shape as PackShape
+from typedcan.transfer.shape import Shape as PackShape
 
 _SURPLUS = 5
 """How many frames beyond what was seen show that there is more."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from swapcan.logs.cells.assembly import Assembly, Complete, CycleCounts
 from swapcan.logs.cells.readings import KEY_BITS, ReadingFrames, no_frames
 from swapcan.logs.cells.shape import Shape, TotalsShape, frames_in, seen_shape
-from swapcan.transfer.shape import Totals
+from typedcan.transfer.shape import Totals
 
 _WATCHED = 2.0
 """Seconds that are watched for what a cycle has."""

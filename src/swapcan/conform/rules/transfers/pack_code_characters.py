@@ -18,8 +18,8 @@ from swapcan.conform.rules.transfers.pack_code_parts import (
 )
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.transfer.layout import characters
 from swapcan.transfer.text import PACK_CODE
+from typedcan.transfer.layout import characters
 
 _IS_WRONG = ~np.isin(np.arange(256), [ord(letter) for letter in characters(PACK_CODE)])
 

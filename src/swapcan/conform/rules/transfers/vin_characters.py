@@ -7,8 +7,8 @@ from functools import partial
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.rules.transfers.vin_letters_watch import VinLettersWatcher
 from swapcan.conform.text import Text
-from swapcan.transfer.layout import characters
 from swapcan.transfer.text import VIN
+from typedcan.transfer.layout import characters
 
 _ALLOWED = {ord(letter) for letter in characters(VIN)}
 

@@ -13,8 +13,8 @@ from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.transfer.layout import text_slots
 from swapcan.transfer.text import VIN
+from typedcan.transfer.layout import text_slots
 
 _SLOTS = text_slots(VIN)
 _NUMBER = VIN.frame_number.field if VIN.frame_number else ""

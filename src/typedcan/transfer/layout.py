@@ -62,3 +62,11 @@ def create(message: type[MessageT], values: Mapping[str, Any]) -> MessageT:
     """A message from its fields by name."""
     make: Callable[..., MessageT] = message
     return make(**values)
+
+
+def group_word(transfer: Transfer) -> str:
+    """What a group is called, as the title of the field that names it says."""
+    if transfer.group is None:
+        return "group"
+    field = transfer.group.message.FIELDS[transfer.group.field]
+    return field.title.removesuffix(" number") or field.name

@@ -13,15 +13,15 @@ conflict
 timeout
     A set of frames was begun and not completed in time, or not confirmed by a second one.
 number
-    A frame number or CSC number that there cannot be.
+    A frame number or group number that there cannot be.
 length
-    The pack code is not transmitted, or is longer than its frames.
+    The text is not transmitted, or is longer than its frames.
 character
-    The text has a code that the standard gives no character.
+    The text has a code that has no character.
 check
-    The VIN is none, by ISO 3779 and its check digit.
+    The text has no right check digit.
 totals
-    More cells or probes arrive than the pack says it has.
+    More readings arrive than the sender says there are.
 """
 
 

@@ -1,4 +1,4 @@
-"""Cell voltages and probe temperatures put together, and told complete from incomplete."""
+"""Readings by group put together, and told complete from incomplete."""
 
 from __future__ import annotations
 
@@ -7,16 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from operator import attrgetter
 from typing import Any, Generic, TypeVar
 
-from swapcan.transfer.problem import Kind, Problem
-from swapcan.transfer.readings import (
-    CELL_VOLTAGES,
-    PROBE_TEMPERATURES,
-    CellVoltages,
-    ProbeTemperatures,
-    Reading,
-    Readings,
-)
-from swapcan.transfer.shape import Shape, Totals
+from typedcan.transfer.layout import group_word
+from typedcan.transfer.problem import Kind, Problem
+from typedcan.transfer.readings import Reading, Readings
+from typedcan.transfer.shape import Shape, Totals
 from typedcan.wire.message import Message, SignalState
 from typedcan.wire.protocol import FieldRef, Transfer
 
@@ -27,28 +21,28 @@ _ROUNDS_IN_DOUBT = 5
 """How often all frames must have come before last readings that never had a value count as such."""
 
 _SILENCE = 20
-"""Windows without a frame after which it may be another pack."""
+"""Windows without a frame after which it may be another sender."""
 
 _NAMED = 3
 """How many missing frames are named one by one."""
 
 
 _Key = tuple[int, int]
-"""A frame: its CSC, and its number there."""
+"""A frame: its group, and its number there."""
 
 _Piece = tuple[Message, float]
 """A message, and when it came; it is taken to pieces once all are there."""
 
 
 class ReadingsAssembler(Generic[ReadingsT]):
-    """What cells and probes have in common; the package's docstring says what it guarantees.
+    """What readings by group have in common; the package's docstring says what it guarantees.
 
     Parameters
     ----------
     transfer
         What the protocol says of it.
     make
-        Makes the result from the readings of each CSC and the time.
+        Makes the result from the readings of each group and the time.
     window
         Seconds that a reading in a result may be old; by default one and a half periods.
     """
@@ -75,6 +69,7 @@ class ReadingsAssembler(Generic[ReadingsT]):
             _ref(transfer.group).field, _ref(transfer.frame_number).field
         )
         self._totals = _ref(transfer.count_field).message
+        self._word = group_word(transfer)
         self._shape: Shape | None = None
         self.reset()
 
@@ -104,7 +99,9 @@ class ReadingsAssembler(Generic[ReadingsT]):
         if self._counts is None or (self._rounds and not self._shape.is_certain):
             return f"only {self._shape.seen} of {self._shape.totals.count} readings had a value yet"
         keys = sorted(self._lacking)
-        named = ", ".join(f"frame {number} of CSC {csc}" for csc, number in keys[:_NAMED])
+        named = ", ".join(
+            f"frame {number} of {self._word} {group}" for group, number in keys[:_NAMED]
+        )
         more = f" and {len(keys) - _NAMED} more" if len(keys) > _NAMED else ""
         return f"{named}{more} {'is' if len(keys) == 1 else 'are'} missing"
 
@@ -138,7 +135,7 @@ class ReadingsAssembler(Generic[ReadingsT]):
         count = _value(message, _ref(self._transfer.count_field))
         known = self._shape.totals if self._shape else None
         if known is None or known.groups != groups or known.count != count:
-            # A pack that counts none has not counted yet.
+            # A sender that counts none has not counted yet.
             self._shape = Shape(Totals(groups, count)) if groups and count else None
             self.reset()
         return ()
@@ -146,21 +143,22 @@ class ReadingsAssembler(Generic[ReadingsT]):
     def _take_frame(
         self, message: Message, shape: Shape, at: float
     ) -> tuple[ReadingsT | Problem, ...]:
-        csc, number = self._place(message)
-        if isinstance(csc, SignalState) or not 1 <= csc <= shape.totals.groups or number < 1:
-            text = f"frame {number} of CSC {csc}; the pack has CSCs 1 to {shape.totals.groups}"
+        group, number = self._place(message)
+        if isinstance(group, SignalState) or not 1 <= group <= shape.totals.groups or number < 1:
+            there = f"there are {self._word}s 1 to {shape.totals.groups}"
+            text = f"frame {number} of {self._word} {group}; {there}"
             return (self._problem("number", text, at),)
-        # A frame below the highest reading of its CSC says nothing new of the shape.
-        if shape.highest(csc) < number * self._width:
+        # A frame below the highest reading of its group says nothing new of the shape.
+        if shape.highest(group) < number * self._width:
             before = (number - 1) * self._width
             highest = _highest(self._readings(message))
             if not highest and before >= shape.totals.count:
                 return ()  # nothing but fill
-            if highest and shape.see(csc, before + highest):
+            if highest and shape.see(group, before + highest):
                 if shape.is_contradicted:
                     return (self._contradiction(shape, at),)
                 self._reshape(shape)
-        self._keep((csc, number), message, at)
+        self._keep((group, number), message, at)
         return self._complete(shape, at) if self._counts and not self._lacking else ()
 
     def _keep(self, key: _Key, message: Message, at: float) -> None:
@@ -179,14 +177,14 @@ class ReadingsAssembler(Generic[ReadingsT]):
             self._counts = counts
             self._rounds = 0
             self._wanted = frozenset(
-                (csc, number)
-                for csc, count in (counts or {}).items()
+                (group, number)
+                for group, count in (counts or {}).items()
                 for number in self._numbers(count)
             )
             self._lacking = set(self._wanted - self._fresh)
 
     def _numbers(self, count: int) -> range:
-        """The frame numbers of a CSC with so many readings."""
+        """The frame numbers of a group with so many readings."""
         return range(1, math.ceil(count / self._width) + 1)
 
     def _contradiction(self, shape: Shape, at: float) -> Problem:
@@ -203,36 +201,22 @@ class ReadingsAssembler(Generic[ReadingsT]):
         self._rounds += 1
         self._since = math.inf
         self._lacking = set(self._wanted)
-        # Last readings without a value look like fill: a CSC with more may still be to come.
+        # Last readings without a value look like fill: a group with more may still be to come.
         if not shape.is_certain and self._rounds < _ROUNDS_IN_DOUBT:
             return ()
         self._fresh.clear()
         self._overdue = False
-        groups = {csc: self._of_csc(csc, count) for csc, count in (self._counts or {}).items()}
+        groups = {
+            group: self._of_group(group, count) for group, count in (self._counts or {}).items()
+        }
         return (self._make(groups, at),)
 
-    def _of_csc(self, csc: int, count: int) -> list[Reading]:
-        messages = (self._pieces[csc, number][0] for number in self._numbers(count))
+    def _of_group(self, group: int, count: int) -> list[Reading]:
+        messages = (self._pieces[group, number][0] for number in self._numbers(count))
         return [reading for message in messages for reading in self._readings(message)][:count]
 
     def _problem(self, kind: Kind, text: str, at: float) -> Problem:
         return Problem(self._transfer.name, kind, text, at)
-
-
-class CellAssembler(ReadingsAssembler[CellVoltages]):
-    """Puts the cell voltages of all CSCs together."""
-
-    def __init__(self, *, window: float | None = None, transfer: Transfer = CELL_VOLTAGES) -> None:
-        super().__init__(transfer, CellVoltages, window)
-
-
-class ProbeAssembler(ReadingsAssembler[ProbeTemperatures]):
-    """Puts the probe temperatures of all CSCs together."""
-
-    def __init__(
-        self, *, window: float | None = None, transfer: Transfer = PROBE_TEMPERATURES
-    ) -> None:
-        super().__init__(transfer, ProbeTemperatures, window)
 
 
 def _highest(readings: Sequence[Reading]) -> int:

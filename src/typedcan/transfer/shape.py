@@ -1,4 +1,4 @@
-"""How many readings each CSC has: the pack tells the sum only, the rest shows in what arrives."""
+"""How many readings each group has: the sender tells the sum, the rest shows in what arrives."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Totals:
-    """How many CSCs and how many readings a pack has, as it says itself."""
+    """How many groups and how many readings there are, as the sender says."""
 
     groups: int
     count: int
 
 
 class Shape:
-    """The number of readings of each CSC, as far as it is known.
+    """The number of readings of each group, as far as it is known.
 
-    The highest reading with a value that a CSC ever sent is at most the number that it has. Where
+    The highest reading with a value that a group ever sent is at most the number that it has. Where
     these add up to the total, each of them is exactly that number: nothing was missed. Before
-    that, all CSCs of a pack whose total they divide are taken to have the same number, as long
+    that, all groups whose total they divide are taken to have the same number, as long
     as no reading speaks against it.
     """
 
@@ -44,7 +44,7 @@ class Shape:
         return self._seen > self.totals.count
 
     def highest(self, group: int) -> int:
-        """The highest reading with a value that a CSC ever sent; 0 where it sent none."""
+        """The highest reading with a value that a group ever sent; 0 where it sent none."""
         return self._highest.get(group, 0)
 
     def see(self, group: int, highest: int) -> bool:
@@ -57,7 +57,7 @@ class Shape:
         return True
 
     def counts(self) -> Mapping[int, int] | None:
-        """The number of readings of each CSC, or None while it cannot be told."""
+        """The number of readings of each group, or None while it cannot be told."""
         groups = range(1, self.totals.groups + 1)
         if self.is_certain:
             return {group: self._highest.get(group, 0) for group in groups}
