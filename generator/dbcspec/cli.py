@@ -6,11 +6,11 @@ import argparse
 import io
 import os
 import sys
-from collections.abc import Callable, Sequence
-from importlib.metadata import version
+from collections.abc import Callable, Collection, Sequence
+from importlib import import_module
 from typing import NoReturn
 
-from dbcspec.commands import compare, generate, lint, load, matrix, show
+from dbcspec.commands import HELP, MODULES
 from dbcspec.errors import FindingsError, SpecError, StaleArtifactError
 from typedcan.model.errors import ReadError
 from typedcan.shell.printing import print_remark, print_text
@@ -34,7 +34,7 @@ def run(arguments: Sequence[str]) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a code page without Chinese shows ? instead
     try:
-        options = command_line().parse_args(arguments)
+        options = command_line(arguments[:1]).parse_args(arguments)
         command: Callable[[argparse.Namespace], int] = options.run
         return command(options)
     except (FindingsError, StaleArtifactError, SpecError) as error:
@@ -59,15 +59,30 @@ class _Parser(argparse.ArgumentParser):
         raise ReadError(f"{message}; see {self.prog} --help")
 
 
-def command_line() -> argparse.ArgumentParser:
-    """The parser of all commands."""
+class _Version(argparse.Action):
+    """Prints the version, which takes a while to find out."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        print_text(f"dbcspec {version('swapcan')}\n")
+        parser.exit()
+
+
+def command_line(chosen: Collection[str] = tuple(HELP)) -> argparse.ArgumentParser:
+    """The parser of all commands, complete for those that are chosen.
+
+    What only those need is imported: some commands take longer to import than to run.
+    """
     parser = _Parser(
         prog="dbcspec",
         description="A CAN protocol as data: tables in YAML in, DBC files and Python stubs out.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--version", action="version", version=f"dbcspec {version('swapcan')}")
+    parser.add_argument(
+        "--version", action=_Version, nargs=0, help="show program's version number and exit"
+    )
     parser.add_argument(
         "--print-completion",
         choices=("bash", "zsh", "tcsh"),
@@ -75,8 +90,11 @@ def command_line() -> argparse.ArgumentParser:
     )
     parser.set_defaults(run=lambda options: _no_command(parser, options.print_completion))
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
-    for module in (generate, lint, show, compare, matrix, load):
-        module.add(commands)
+    for name in dict.fromkeys(MODULES[command] for command in HELP if command in chosen):
+        import_module(f"dbcspec.commands.{name}").add(commands)
+    for command, text in HELP.items():
+        if command not in commands.choices:
+            commands.add_parser(command, help=text)
     return parser
 
 
@@ -89,5 +107,5 @@ def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
         import shtab
     except ModuleNotFoundError:
         raise ReadError("completion needs shtab: pip install 'swapcan[completion]'") from None
-    print_text(shtab.complete(parser, shell))
+    print_text(shtab.complete(command_line(), shell))
     return 0

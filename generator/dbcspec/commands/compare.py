@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from dbcspec.commands import HELP
 from dbcspec.commands.common import Commands, print_report, report_options
 from dbcspec.compare.approvals import APPROVAL_USED, apply_approvals, read_approvals
 from dbcspec.compare.promise import Class
@@ -15,7 +16,7 @@ from typedcan.report.item import LEVELS, Report
 
 def add(commands: Commands) -> None:
     """Declare the command."""
-    text = "say what changed between two protocols, and whom it breaks"
+    text = HELP["compare"]
     parser = commands.add_parser("compare", help=text, description=f"{text.capitalize()}.")
     parser.set_defaults(run=_compare)
     side = "a spec folder, DBC, matrix (.xlsx), KCD, SYM or ARXML, or REVISION:PATH of git"

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from dbcspec.artifacts import Stale, artifacts, foreign_artifacts, verify, write
+from dbcspec.commands import HELP
 from dbcspec.commands.common import Commands, load_sound_project, project_option
 from dbcspec.errors import StaleArtifactError
 from dbcspec.read.doors import open_side
@@ -18,7 +19,7 @@ from typedcan.shell.printing import print_line, printable_json
 
 def add(commands: Commands) -> None:
     """Declare both commands."""
-    text = "write all generated files"
+    text = HELP["generate"]
     generate = commands.add_parser("generate", help=text, description=f"{text.capitalize()}.")
     generate.set_defaults(run=_generate)
     project_option(generate)
@@ -29,7 +30,7 @@ def add(commands: Commands) -> None:
     generate.add_argument("--out", type=Path, help="with --from: the folder to write into")
     generate.add_argument("--encoding", help="of FILE, where it is not to be found out")
 
-    text = "exit 1 and name each generated file that is not current"
+    text = HELP["check"]
     check = commands.add_parser("check", help=text, description=f"{text.capitalize()}.")
     check.set_defaults(run=_check)
     project_option(check)

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from dbcspec.artifacts import put_in_place
+from dbcspec.commands import HELP
 from dbcspec.commands.common import (
     Commands,
     load_project,
@@ -30,7 +31,7 @@ from typedcan.shell.printing import print_remark, print_text
 
 def add(commands: Commands) -> None:
     """Declare both commands."""
-    text = "find faults in the spec, or in a DBC, a matrix or another spec"
+    text = HELP["lint"]
     lint = commands.add_parser("lint", help=text, description=f"{text.capitalize()}.")
     lint.set_defaults(run=_lint)
     project_option(lint)
@@ -43,7 +44,7 @@ def add(commands: Commands) -> None:
     lint.add_argument("--fix", action="store_true", help="mend a DBC file where that is certain")
     report_options(lint)
 
-    text = "list the lint rules and the promises of compare"
+    text = HELP["rules"]
     rules = commands.add_parser("rules", help=text, description=f"{text.capitalize()}.")
     rules.set_defaults(run=_rules)
     rules.add_argument("--format", choices=("text", "json", "markdown"), default="text")

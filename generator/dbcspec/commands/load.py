@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from dbcspec.artifacts import put_in_place
+from dbcspec.commands import HELP
 from dbcspec.commands.common import Commands, project_option, source_protocol
 from dbcspec.load.analysis import BusLoad, analyse
 from dbcspec.load.plot import svg
@@ -26,7 +27,7 @@ exit status: 0 every message is always in time, 1 one can miss its period, 2 no 
 
 def add(commands: Commands) -> None:
     """Declare the command."""
-    short = "bus load, worst-case response times, and what still fits"
+    short = HELP["load"]
     parser = commands.add_parser("load", help=short, description=f"{short.capitalize()}.")
     parser.epilog = _EXAMPLES
     parser.formatter_class = argparse.RawDescriptionHelpFormatter

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from dbcspec.artifacts import put_in_place, write
+from dbcspec.commands import HELP
 from dbcspec.commands.common import (
     Commands,
     load_project,
@@ -27,7 +28,7 @@ from typedcan.shell.printing import print_line, print_remark
 
 def add(commands: Commands) -> None:
     """Declare the commands."""
-    text = "write or read the Excel CAN matrix"
+    text = HELP["matrix"]
     matrix = commands.add_parser("matrix", help=text, description=f"{text.capitalize()}.")
     ways = matrix.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
@@ -47,7 +48,7 @@ def add(commands: Commands) -> None:
     import_.add_argument("--write-spec", action="store_true", help="change the YAML accordingly")
     report_options(import_)
 
-    text = "write a first spec folder from a DBC or another file"
+    text = HELP["import"]
     foreign = commands.add_parser("import", help=text, description=f"{text.capitalize()}.")
     foreign.set_defaults(run=_import)
     foreign.add_argument("file", help="a DBC, matrix, KCD, SYM or ARXML")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from dbcspec.commands import HELP
 from dbcspec.commands.common import Commands, project_option, source_protocol
 from dbcspec.read.doors import open_side
 from dbcspec.show import find_message, show
@@ -13,7 +14,7 @@ from typedcan.shell.printing import print_text
 
 def add(commands: Commands) -> None:
     """Declare both commands."""
-    text = "show one message in the terminal"
+    text = HELP["show"]
     one = commands.add_parser("show", help=text, description=f"{text.capitalize()}.")
     one.set_defaults(run=_show)
     project_option(one)
@@ -21,7 +22,7 @@ def add(commands: Commands) -> None:
     one.add_argument("--in", dest="source", help="a DBC, matrix or spec (default: the project)")
     one.add_argument("--encoding", help="of that file, where it is not to be found out")
 
-    text = "print a protocol line by line, for git's textconv"
+    text = HELP["textconv"]
     whole = commands.add_parser("textconv", help=text, description=f"{text.capitalize()}.")
     whole.set_defaults(run=_textconv)
     whole.add_argument("source", metavar="FILE", help="a DBC, matrix or spec folder")
