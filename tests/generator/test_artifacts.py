@@ -50,7 +50,7 @@ def test_a_project_without_python_gets_dbc_files_and_schemas(small: Project) -> 
 def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path: Path) -> None:
     write_project(tmp_path)
     with (tmp_path / "pyproject.toml").open("a", encoding="utf-8") as file:
-        file.write('stubs = "src/thermo/_generated"\nruntime = "thermo"\n')
+        file.write('stubs = "src/thermo/_generated"\n')
     files = files_of(load(find_config(tmp_path)))
     folder = "src/thermo/_generated"
     assert {name for name in files if name.startswith(folder)} == {
@@ -60,6 +60,8 @@ def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path:
             "enums.py",
             "messages.py",
             "decoders.py",
+            "model.py",
+            "protocol.json",
             "protocol.py",
             "thermo.dbc",
         )
