@@ -11,10 +11,10 @@ from swapcan.node import (
     ReceiveFailed,
     SendFailed,
 )
-from swapcan.supervise import NotSeen, SignalChanged, State, StateChanged
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
 from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
 from typedcan.model.errors import TypedcanError
+from typedcan.supervise import NotSeen, SignalChanged, State, StateChanged
 from typedcan.wire.errors import (
     ChecksumError,
     DatabaseError,

@@ -14,8 +14,8 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1, B2V_ST2, V2B_VIN
 from swapcan.node import Node
 from swapcan.node.events import Event, Overrun
-from swapcan.supervise import State, StateChanged
 from swapcan.transfer import Vin, split_vin
+from typedcan.supervise import State, StateChanged
 
 
 def st2(soc: int) -> can.Message:

@@ -17,7 +17,7 @@ from swapcan import Received, TypedcanError
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_RQ, B2V_ST1, B2V_ST2, V2B_CMD
 from swapcan.node import Node
-from swapcan.supervise import NotSeen, State, StateChanged
+from typedcan.supervise import NotSeen, State, StateChanged
 
 
 def test_two_nodes_hear_each_other(near: can.BusABC, far: can.BusABC) -> None:

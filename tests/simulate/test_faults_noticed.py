@@ -22,7 +22,7 @@ from swapcan.messages import (
 from swapcan.simulate.faults import FAULTS, TRANSMISSION_FAULTS, able_nodes, planned_fault
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.simulation import Simulation
-from swapcan.supervise import SignalChanged, State, StateChanged
+from typedcan.supervise import SignalChanged, State, StateChanged
 from typedcan.wire.message import Message
 
 BEGIN, END = 3.0, 7.0

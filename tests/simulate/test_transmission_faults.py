@@ -18,7 +18,7 @@ from swapcan.simulate.faulty_bus import FaultyBus
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.world import World
-from swapcan.supervise import State, StateChanged
+from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message
 

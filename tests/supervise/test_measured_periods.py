@@ -6,9 +6,9 @@ import pytest
 from supervise.arrivals import received
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.supervise import Supervisor
-from swapcan.supervise.periods import Periods
-from swapcan.supervise.snapshot import MessageSnapshot
+from typedcan.supervise import Supervisor
+from typedcan.supervise.periods import Periods
+from typedcan.supervise.snapshot import MessageSnapshot
 
 
 def measured(supervisor: Supervisor, name: str) -> MessageSnapshot:

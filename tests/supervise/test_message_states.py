@@ -15,7 +15,7 @@ from swapcan.messages import (
     B2V_SysCode1,
     B2V_Ucell,
 )
-from swapcan.supervise import NotSeen, State, StateChanged, SupervisionEvent, Supervisor
+from typedcan.supervise import NotSeen, State, StateChanged, SupervisionEvent, Supervisor
 from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
 
 NEVER_SEEN, ALIVE, LATE, LOST = State

@@ -7,8 +7,8 @@ from supervise.arrivals import frame
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1
-from swapcan.supervise import State, SupervisionEvent, Supervisor
 from swapcan.wire import Receiver
+from typedcan.supervise import State, SupervisionEvent, Supervisor
 from typedcan.wire.link import Received
 
 NO_FAULTS = {

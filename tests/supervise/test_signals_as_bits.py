@@ -13,12 +13,12 @@ import swapcan
 from swapcan import Message, Received
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import MESSAGES
-from swapcan.supervise import SignalChanged
-from swapcan.supervise.bit_places import bit_places, byte_order
-from swapcan.supervise.right_codes import right_codes
-from swapcan.supervise.signal_watch import WatchedField, watched_fields
-from swapcan.supervise.tracked_message import TrackedMessage
 from typedcan.model.protocol import Signal
+from typedcan.supervise import SignalChanged
+from typedcan.supervise.bit_places import bit_places, byte_order
+from typedcan.supervise.right_codes import right_codes
+from typedcan.supervise.signal_watch import WatchedField, watched_fields
+from typedcan.supervise.tracked_message import TrackedMessage
 from typedcan.wire.message import PhysicalField, SignalState
 
 DATABASE = cantools.database.load_string(swapcan.dbc_text(), "dbc")

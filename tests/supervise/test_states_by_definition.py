@@ -10,7 +10,7 @@ from supervise.arrivals import received, refused
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST2
-from swapcan.supervise import NotSeen, State, StateChanged, SupervisionEvent, Supervisor
+from typedcan.supervise import NotSeen, State, StateChanged, SupervisionEvent, Supervisor
 
 TICK = 1 / 64
 """A power of two, so that all sums of ticks are exact."""

@@ -7,8 +7,8 @@ from supervise.arrivals import frame, received, refused
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1, B2V_ST2
-from swapcan.supervise import Supervisor
 from swapcan.wire import Receiver
+from typedcan.supervise import Supervisor
 from typedcan.wire.link import Received
 
 

@@ -15,9 +15,9 @@ from swapcan.messages import (
     B2V_BattInfo2,
     RelayState,
 )
-from swapcan.supervise import SignalChanged, SupervisionEvent, Supervisor
-from swapcan.supervise.signal_watch import judge_of
 from typedcan.model.protocol import Signal
+from typedcan.supervise import SignalChanged, SupervisionEvent, Supervisor
+from typedcan.supervise.signal_watch import judge_of
 from typedcan.wire.message import PhysicalField, SignalState
 
 

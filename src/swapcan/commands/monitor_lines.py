@@ -45,8 +45,8 @@ from swapcan.console import say
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.rows import MessageRow, Seen
 from swapcan.monitor.session import Session, SessionEvent, Status
-from swapcan.supervise import NotSeen, SignalChanged, StateChanged
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Vin
+from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.link import Fault
 
 _ITEMS = ("soc", "voltage_inside", "current", "hv_state", "fault_level")

@@ -31,7 +31,7 @@ from swapcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, Sen
 from swapcan.node.request import Pending
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
-from swapcan.supervise import NotSeen, SignalChanged, StateChanged
+from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Fault
 from typedcan.wire.message import Message

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any, NamedTuple
 
-from swapcan.supervise.events import SignalKind, State
-from swapcan.supervise.signal_watch import Judge, watched_fields
-from swapcan.supervise.snapshot import MessageSnapshot
+from typedcan.supervise.events import SignalKind, State
+from typedcan.supervise.signal_watch import Judge, watched_fields
+from typedcan.supervise.snapshot import MessageSnapshot
 from typedcan.wire.link import Received
 from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState, Value
 from typedcan.wire.protocol import Protocol

@@ -13,10 +13,10 @@ from swapcan.monitor.cells import Cells
 from swapcan.monitor.pack import Alarm, Pack, is_alarm_level, sections
 from swapcan.monitor.picture import ForeignRow, Picture, Totals
 from swapcan.monitor.rows import Seen, message_row
-from swapcan.supervise import SupervisionEvent, Supervisor
-from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import CellVoltages, Outcome, PackCode, Transfers, Vin
 from swapcan.wire import Codec, Receiver
+from typedcan.supervise import SupervisionEvent, Supervisor
+from typedcan.supervise.snapshot import Snapshot
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol

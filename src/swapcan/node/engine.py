@@ -28,9 +28,9 @@ from swapcan.node.port import Port
 from swapcan.node.request import Requests
 from swapcan.node.transmit import Transmitter
 from swapcan.process_signals import LAST_WORDS
-from swapcan.supervise import Supervisor
 from swapcan.wire import Codec
 from typedcan.model.errors import TypedcanError
+from typedcan.supervise import Supervisor
 from typedcan.wire.acting import acting_fields
 from typedcan.wire.clock import Clock
 from typedcan.wire.errors import StillActingError, one_line

@@ -10,8 +10,8 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 from typing import Any
 
-from swapcan.supervise import SupervisionEvent
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
+from typedcan.supervise import SupervisionEvent
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 

@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 import can
 
 from swapcan.node.events import Dispatcher
-from swapcan.supervise import Supervisor
-from swapcan.supervise.events import State
-from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import Transfers
 from swapcan.wire import Codec, Receiver
+from typedcan.supervise import Supervisor
+from typedcan.supervise.events import State
+from typedcan.supervise.snapshot import Snapshot
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol

@@ -16,10 +16,10 @@ from swapcan.node.cycles import Maker
 from swapcan.node.engine import Engine, Leave
 from swapcan.node.events import Event
 from swapcan.node.request import Pending
-from swapcan.supervise import State, Supervisor
-from swapcan.supervise.snapshot import Snapshot
 from swapcan.transfer import PackCode, PackCodeAssembler, Vin, VinAssembler
 from swapcan.wire import Codec
+from typedcan.supervise import State, Supervisor
+from typedcan.supervise.snapshot import Snapshot
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.errors import RequestError, StillActingError
 from typedcan.wire.link import Counts, Received

@@ -55,8 +55,8 @@ from swapcan.simulate.sensors import (
     SENSOR_FAILURE,
 )
 from swapcan.simulate.status import PackStatus, battery_info
-from swapcan.supervise import State
 from swapcan.transfer import Vin, split_pack_code
+from typedcan.supervise import State
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message, SignalState

@@ -18,7 +18,7 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.simulate.participant import Participant
-from swapcan.supervise import State, StateChanged
+from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
 from typedcan.wire.message import Code2, SignalState

@@ -33,8 +33,8 @@ from swapcan.node.answers import BatteryInfo
 from swapcan.node.request import Pending
 from swapcan.simulate.driving import Motion, Power, Profile, Trip, shuttle
 from swapcan.simulate.participant import Participant
-from swapcan.supervise import State, StateChanged
 from swapcan.transfer import PackCode, split_vin
+from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
 from typedcan.wire.message import SignalState

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import math
 
-from swapcan.supervise.bit_places import byte_order, numbering
-from swapcan.supervise.events import (
-    NotSeen,
-    SignalKind,
-    State,
-    StateChanged,
-    SupervisionEvent,
-)
-from swapcan.supervise.frame_parts import Parts, frames_of, time_between
-from swapcan.supervise.periods import Periods
-from swapcan.supervise.signal_watch import Signals, Watch, watched_fields
-from swapcan.supervise.snapshot import MessageSnapshot
+from typedcan.supervise.bit_places import byte_order, numbering
+from typedcan.supervise.events import NotSeen, SignalKind, State, StateChanged, SupervisionEvent
+from typedcan.supervise.frame_parts import Parts, frames_of, time_between
+from typedcan.supervise.periods import Periods
+from typedcan.supervise.signal_watch import Signals, Watch, watched_fields
+from typedcan.supervise.snapshot import MessageSnapshot
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol

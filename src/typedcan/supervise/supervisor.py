@@ -10,12 +10,9 @@ import math
 from collections.abc import Iterable, Mapping
 from operator import itemgetter
 
-from swapcan.supervise.events import (
-    State,
-    SupervisionEvent,
-)
-from swapcan.supervise.snapshot import Snapshot
-from swapcan.supervise.tracked_message import TrackedMessage
+from typedcan.supervise.events import State, SupervisionEvent
+from typedcan.supervise.snapshot import Snapshot
+from typedcan.supervise.tracked_message import TrackedMessage
 from typedcan.wire.errors import UnknownMessageError
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message

@@ -6,10 +6,10 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from swapcan.supervise.bit_places import ByteOrder, bit_places
-from swapcan.supervise.events import SignalChanged, SignalKind
-from swapcan.supervise.right_codes import right_codes
-from swapcan.supervise.snapshot import SignalSnapshot
+from typedcan.supervise.bit_places import ByteOrder, bit_places
+from typedcan.supervise.events import SignalChanged, SignalKind
+from typedcan.supervise.right_codes import right_codes
+from typedcan.supervise.snapshot import SignalSnapshot
 from typedcan.wire.link import Received
 from typedcan.wire.message import (
     CharacterField,

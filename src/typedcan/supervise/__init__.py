@@ -1,14 +1,8 @@
 """Supervision of what a node receives: which messages come, how regularly, with which faults."""
 
-from swapcan.supervise.events import (
-    NotSeen,
-    SignalChanged,
-    State,
-    StateChanged,
-    SupervisionEvent,
-)
-from swapcan.supervise.snapshot import MessageSnapshot, SignalSnapshot, Snapshot
-from swapcan.supervise.supervisor import Supervisor
+from typedcan.supervise.events import NotSeen, SignalChanged, State, StateChanged, SupervisionEvent
+from typedcan.supervise.snapshot import MessageSnapshot, SignalSnapshot, Snapshot
+from typedcan.supervise.supervisor import Supervisor
 
 __all__ = [
     "MessageSnapshot",

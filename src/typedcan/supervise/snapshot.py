@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from swapcan.supervise.events import SignalKind, State
-from swapcan.supervise.periods import PeriodStats
+from typedcan.supervise.events import SignalKind, State
+from typedcan.supervise.periods import PeriodStats
 from typedcan.wire.message import SignalState, Value
 
 

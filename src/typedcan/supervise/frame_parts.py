@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from swapcan.supervise.bit_places import ByteOrder
-from swapcan.supervise.events import SignalChanged, SignalKind
-from swapcan.supervise.periods import Periods
-from swapcan.supervise.signal_watch import Signals, Watch, WatchedField
-from swapcan.supervise.snapshot import SignalSnapshot
+from typedcan.supervise.bit_places import ByteOrder
+from typedcan.supervise.events import SignalChanged, SignalKind
+from typedcan.supervise.periods import Periods
+from typedcan.supervise.signal_watch import Signals, Watch, WatchedField
+from typedcan.supervise.snapshot import SignalSnapshot
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Transfer
