@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Literal, NamedTuple
 
-from swapcan.wire import database
-from typedcan.wire.database import Entry
+from typedcan.wire.database import Entry, database
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Transfer
 
