@@ -64,7 +64,7 @@ def test_messages_of_11_bits_go_out_and_come_in_as_such(near: can.BusABC, far: c
     frame = far.recv(1.0)
     assert frame is not None
     assert (frame.is_extended_id, frame.arbitration_id) == (False, kind.FRAME_ID)
-    decoded = reader.decode_message(kind.NAME, frame.data, decode_choices=False)
+    decoded = reader.decode_message(kind.NAME, bytes(frame.data), decode_choices=False)
     assert isinstance(decoded, dict)
     assert set(decoded.values()) == {1}
     far.send(frame)
