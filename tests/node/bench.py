@@ -12,6 +12,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.clock import SimulatedClock
 from swapcan.message import Message
+from swapcan.messages import B2C_Charger, BMS_TMS_0, ChargeControl, HvRequest
 from swapcan.node import Node
 
 
@@ -74,6 +75,15 @@ def frames_on(bus: can.BusABC) -> list[can.Message]:
     while frame := bus.recv(0):
         frames.append(frame)
     return frames
+
+
+def at_rest(kind: type[Message]) -> Message:
+    """A message that asks for nothing: also one whose fields have to be given."""
+    if kind is B2C_Charger:
+        return B2C_Charger(charge_control=ChargeControl.NORMAL_STOP_TO_CHARGE)
+    if kind is BMS_TMS_0:
+        return BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF)
+    return kind()
 
 
 class Ear:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import can
 import pytest
 from can.broadcastmanager import ThreadBasedCyclicSendTask
-from node.bench import Bench, Recorder
+from node.bench import Bench, Recorder, at_rest
 
 from swapcan import Received, SwapcanError
 from swapcan._generated.protocol import PROTOCOL
@@ -37,7 +37,7 @@ def test_two_nodes_hear_each_other(near: can.BusABC, far: can.BusABC) -> None:
 def test_a_node_has_two_threads_whatever_it_sends(near: can.BusABC) -> None:
     before = threading.active_count()
     with Node(PROTOCOL, "BMU", near) as node:
-        node.set(*(kind() for kind in PROTOCOL.sent_by("BMU")))
+        node.set(*map(at_rest, PROTOCOL.sent_by("BMU")))
         assert threading.active_count() == before + 2
 
 

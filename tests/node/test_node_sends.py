@@ -21,6 +21,7 @@ from swapcan.messages import (
     V2B_VIN,
     B2V_ElecEnergy,
     B2V_Ucell,
+    HvRequest,
 )
 from swapcan.node import Node
 from swapcan.node.events import SendFailed
@@ -68,9 +69,9 @@ def test_new_values_go_out_without_a_change_of_rhythm_or_counter(
     bench: Bench, near: can.BusABC, ear: Ear
 ) -> None:
     node = bench.node("BMU", near)
-    node.set(BMS_TMS_0(volt=1), period=0.1)
+    node.set(BMS_TMS_0(volt=1, reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF), period=0.1)
     ear.run(0.25)
-    node.set(BMS_TMS_0(volt=2))
+    node.set(BMS_TMS_0(volt=2, reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF))
     ear.run(0.55)
     assert gaps(ear.times(BMS_TMS_0)) == pytest.approx([0.1] * 4, abs=0.0011)
     volts_and_counters = [(data[2:6], data[12:14]) for data in ear.data(BMS_TMS_0)]
@@ -174,8 +175,8 @@ def test_what_is_cleared_is_sent_no_more(bench: Bench, near: can.BusABC, ear: Ea
 
 def test_one_frame_can_be_sent_at_once(near: can.BusABC, far: can.BusABC) -> None:
     node = Node(PROTOCOL, "BMU", near)
-    node.send(BMS_TMS_0())
-    node.send(BMS_TMS_0())
+    node.send(BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF))
+    node.send(BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF))
     assert [frame.data[6] for frame in frames_on(far)] == [0, 1]
 
 

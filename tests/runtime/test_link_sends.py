@@ -20,6 +20,7 @@ from swapcan.messages import (
     AccessoryHvCommand,
     HeatCommand,
     HvCommand,
+    HvRequest,
 )
 
 
@@ -81,7 +82,7 @@ def test_the_counters_of_each_message_run_on_their_own_and_wrap(
     for _ in range(300):
         link.send(V2B_CMD())
         seen["V2B_CMD"].append(received(far).data[1] & 0x0F)
-        link.send(BMS_TMS_0())
+        link.send(BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF))
         seen["BMS_TMS_0"].append(received(far).data[6])
         link.send(BSU_BMS_0())
         seen["BSU_BMS_0"].append(received(far).data[0])
@@ -107,9 +108,13 @@ def test_a_checksum_that_the_standard_leaves_open_is_the_users(
 ) -> None:
     codec = Codec(algorithms={"BMS_CRC": lambda data: sum(data) & 0xFF})
     link = Link(near, codec=codec)
-    link.send(BMS_TMS_0(volt=0x0203, set_temp=0.0, crc=0x99))
+    link.send(
+        BMS_TMS_0(volt=0x0203, set_temp=0.0, reqst_tms_hv_on=HvRequest.REQUEST_HV_ON, crc=0x99)
+    )
     assert received(far).data.hex() == "000203002800002d"  # 2 + 3 + 40
-    Link(near).send(BMS_TMS_0(volt=0x0203, set_temp=0.0, crc=0x99))
+    Link(near).send(
+        BMS_TMS_0(volt=0x0203, set_temp=0.0, reqst_tms_hv_on=HvRequest.REQUEST_HV_ON, crc=0x99)
+    )
     assert received(far).data.hex() == "0002030028000000"
 
 
