@@ -12,7 +12,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.clock import SimulatedClock
 from swapcan.message import Message
-from swapcan.messages import B2C_Charger, BMS_TMS_0, ChargeControl, HvRequest
+from swapcan.messages import BMS_TMS_0, B2C_Charger, ChargeControl, HvRequest
 from swapcan.node import Node
 
 
