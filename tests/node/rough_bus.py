@@ -141,12 +141,12 @@ def commands(frames: Sequence[can.Message]) -> list[can.Message]:
 
 
 def is_on(frame: can.Message) -> bool:
-    return bool(signals(frame)["V2B_CMD_HV_OnOff"] == 1)
+    return bool(signals(frame).get("V2B_CMD_HV_OnOff") == 1)
 
 
 def is_off(frame: can.Message) -> bool:
     values = signals(frame)
-    return {name: values[name] for name in OFF} == OFF
+    return {name: values.get(name) for name in OFF} == OFF
 
 
 def trailing_offs(frames: Sequence[can.Message]) -> list[can.Message]:

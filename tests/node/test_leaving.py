@@ -18,7 +18,6 @@ from node.rough_bus import (
     frames_until,
     is_off,
     is_on,
-    made_rough,
     raising,
     rest,
     signals,
@@ -51,11 +50,6 @@ ON = V2B_CMD(
     heat_on_off=HeatCommand.HEAT_ON,
     vehicle_speed=42.0,
 )
-
-
-@pytest.fixture
-def rough(near: can.BusABC) -> RoughBus:
-    return made_rough(near)
 
 
 def set_on(node: Node) -> None:

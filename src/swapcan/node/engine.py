@@ -39,7 +39,7 @@ _LOG = logging.getLogger("swapcan")
 _LOOK = 0.1
 """Seconds after which the thread that sends looks whether the one that receives hangs."""
 
-PATIENCE = 3.0
+_PATIENCE = 3.0
 """Seconds to wait for the threads to end; one that hangs in a driver never does."""
 
 _LEAST = 0.1
@@ -83,6 +83,7 @@ class Engine:
         self._reception.start()
         self._leaves_safe = leave == "safe" and any(map(acting_fields, protocol.sent_by(name)))
         self._leaving = Leaving(self._transmitter, self._port, safe=self._leaves_safe)
+        self.patience = _PATIENCE
         self._life = Life()
         self._sender: threading.Thread | None = None
         self._threads: tuple[threading.Thread, ...] = ()
@@ -104,7 +105,7 @@ class Engine:
         """Begin to send and to receive, in two threads."""
         if self._threads:
             raise SwapcanError(f"{self._name} has been started already")
-        _wait_for(self._sender, PATIENCE)
+        _wait_for(self._sender, self.patience)
         if self._sender and self._sender.is_alive():
             raise SwapcanError(f"{self._name} cannot be started: a thread of it still hangs")
         # A new one each time: a thread that stopped its node may not have ended yet.
@@ -135,14 +136,14 @@ class Engine:
         """Whether a thread has not ended yet."""
         return any(thread.is_alive() for thread in self._threads)
 
-    def stop(self, patience: float = PATIENCE) -> None:
+    def stop(self, patience: float | None = None) -> None:
         """End all that was begun; does nothing where that is done.
 
-        Raises `StillActingError` where what acts could not be ended.
+        Waits for the threads for ``patience`` seconds. Raises `StillActingError` where what acts could not be ended.
         """
         try:
             if self._threads:
-                self._stop(patience)
+                self._stop(self.patience if patience is None else patience)
             else:
                 self._stop_by_hand()
         except BaseException:  # such as a second Ctrl-C: the threads end by themselves

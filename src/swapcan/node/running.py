@@ -10,7 +10,7 @@ from typing import Self
 
 from swapcan.errors import StillActingError
 from swapcan.message import Message
-from swapcan.node.engine import PATIENCE, Engine
+from swapcan.node.engine import Engine
 
 _LOG = logging.getLogger("swapcan")
 
@@ -56,14 +56,14 @@ class Running:
         traceback: TracebackType | None,
     ) -> None:
         self._engine.ask_to_stop()
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + self._engine.patience
         try:
             while self._engine.runs and time.monotonic() < end:
                 await asyncio.sleep(0.005)
         finally:
             self._stop_after(error, max(end - time.monotonic(), 0.0))
 
-    def _stop_after(self, error: BaseException | None, patience: float = PATIENCE) -> None:
+    def _stop_after(self, error: BaseException | None, patience: float | None = None) -> None:
         """Stop; what is wrong with that is told beside the error that a block was left with."""
         try:
             self._engine.stop(patience)

@@ -39,6 +39,7 @@ class Transmitter:
         self._commands = SentCommands()
         self._under_way: Message | None = None
         self._under_way_in: int | None = None
+        self._waited_out: Message | None = None
         self.sends: Sends = "all"
         """Once this is less, it is less for every transmission that has not begun yet."""
         self.ends_safe = True
@@ -95,22 +96,29 @@ class Transmitter:
             finally:
                 self._under_way = self._under_way_in = None
                 if self.ends_safe and self.acting and self._refuses(message):
-                    self.send_safe_codes()  # the node was left while this was under way
+                    # The node was left while this was under way: it is left again, if it can be.
+                    self.send_safe_codes(settle=False)
         self._failing.discard(type(message))
 
-    def send_safe_codes(self) -> Exception | None:
+    def send_safe_codes(self, *, settle: bool = True) -> Exception | None:
         """Send each message that can act and was sent, with its safe codes.
 
+        With ``settle`` what has gone out so counts as acting no more.
         Returns what the first one raised that could not be sent; the others are sent all the same,
         also before `KeyboardInterrupt` and its like are raised again.
         """
         failure: BaseException | None = None
-        # A thread that hangs in the bus must not keep the others from trying.
-        held = self._lock.acquire(timeout=_AT_MOST)
+        # A thread that hangs in the bus must not keep the others from trying, and not each time.
+        is_waited_out = self._under_way is not None and self._under_way is self._waited_out
+        held = self._lock.acquire(timeout=0 if is_waited_out else _AT_MOST)
+        self._waited_out = None if held else self._under_way
         try:
             for message in self._commands.all:
                 try:
-                    self._send_safe(message)
+                    self._port.send(self.frame(message, safe=True))
+                    self._counters.advance(type(message))
+                    if settle:
+                        self._commands.made_safe(message)
                 except BaseException as error:  # noqa: BLE001 - the others have to be tried
                     failure = failure or error
         finally:
@@ -119,11 +127,6 @@ class Transmitter:
         if failure is None or isinstance(failure, Exception):
             return failure
         raise failure
-
-    def _send_safe(self, message: Message) -> None:
-        self._port.send(self.frame(message, safe=True))
-        self._commands.made_safe(message)
-        self._counters.advance(type(message))
 
     def try_to_send(self, message: Message) -> None:
         """Send a message, or report that it cannot be sent, once until it can."""
