@@ -6,8 +6,7 @@ from importlib import import_module
 from typing import Any
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
-from typedcan.model.errors import TypedcanError
+from swapcan.wire import Codec, Link, SwapcanError, dbc_text, decode, encode, message_type
 from typedcan.wire.errors import (
     ChecksumError,
     DatabaseError,
@@ -88,8 +87,8 @@ __all__ = [
     "State",
     "StateChanged",
     "StillActingError",
+    "SwapcanError",
     "TransferError",
-    "TypedcanError",
     "UnknownFrameError",
     "UnknownMessageError",
     "UnknownNodeError",

@@ -12,8 +12,7 @@ from swapcan.node import (
     SendFailed,
 )
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
-from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
-from typedcan.model.errors import TypedcanError
+from swapcan.wire import Codec, Link, SwapcanError, dbc_text, decode, encode, message_type
 from typedcan.supervise import NotSeen, SignalChanged, State, StateChanged
 from typedcan.wire.errors import (
     ChecksumError,
@@ -71,8 +70,8 @@ __all__ = [
     "State",
     "StateChanged",
     "StillActingError",
+    "SwapcanError",
     "TransferError",
-    "TypedcanError",
     "UnknownFrameError",
     "UnknownMessageError",
     "UnknownNodeError",

@@ -7,11 +7,15 @@ is: then a pack's own timeout has to open its contactors.
 from __future__ import annotations
 
 import logging
+import os
 import signal
+import sys
 import threading
+import time
 from collections.abc import Callable
+from pathlib import Path
 from types import FrameType, TracebackType
-from typing import Any, Self
+from typing import Any, Protocol, Self
 
 _LOG = logging.getLogger("swapcan")
 
@@ -27,13 +31,18 @@ _ALWAYS = frozenset({"SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK"})
 _LEFT_ALONE = frozenset(
     {
         *("SIGKILL", "SIGSTOP"),  # cannot be caught
-        *("SIGCHLD", "SIGCLD", "SIGCONT", "SIGURG", "SIGWINCH"),  # end nothing
-        *("SIGPIPE", "SIGXFSZ"),  # Python ignores them, and raises OSError
-        # Come of the process's own faults: after them nothing works for certain.
-        *("SIGABRT", "SIGIOT", "SIGBUS", "SIGFPE", "SIGILL", "SIGSEGV", "SIGSYS", "SIGTRAP"),
-        *("SIGEMT", "SIGSTKFLT"),
+        *("SIGCHLD", "SIGCLD", "SIGCONT", "SIGURG", "SIGWINCH", "SIGINFO"),  # end nothing
+        # Come of the process's own faults, which a handler in Python would come back to.
+        *("SIGBUS", "SIGEMT", "SIGFPE", "SIGILL", "SIGSEGV", "SIGSYS", "SIGTRAP"),
+        *(() if sys.platform == "linux" else ("SIGIO", "SIGPOLL")),  # end nothing elsewhere
     }
 )
+
+_STATUS = Path("/proc/self/status")
+"""Where Linux says, as "SigCgt", which signals have a handler of whatever language."""
+
+_PATIENCE = 3.0
+"""Seconds for the last words, however many have some; a bus may hang."""
 
 Handler = Callable[[int, FrameType | None], object]
 
@@ -42,6 +51,16 @@ def _numbers() -> frozenset[int]:
     """The signals that end or stop a process, Ctrl-C among them."""
     alone = {getattr(signal, name) for name in _LEFT_ALONE if hasattr(signal, name)}
     return frozenset(int(number) for number in signal.valid_signals()) - alone
+
+
+def _caught() -> frozenset[int]:
+    """The signals that have a handler, also one of which Python does not know, if one can tell."""
+    try:
+        lines = _STATUS.read_text("ascii", "replace").splitlines()
+    except OSError:
+        return frozenset()
+    masks = [int(line.split()[1], 16) for line in lines if line.startswith("SigCgt:")]
+    return frozenset(bit + 1 for mask in masks for bit in range(64) if mask >> bit & 1)
 
 
 def _is_one_of(number: int, names: frozenset[str]) -> bool:
@@ -57,10 +76,14 @@ def _install(numbers: frozenset[int], handler: Handler, always: frozenset[str]) 
     before: dict[int, Any] = {}
     if threading.current_thread() is not threading.main_thread():
         return before
+    caught = _caught()
     for number in numbers:
         present = signal.getsignal(number)
-        others = present not in (signal.SIG_IGN, None) and _is_one_of(number, always)
-        if present is signal.SIG_DFL or others:
+        if present is signal.SIG_DFL:
+            wanted = number not in caught  # by what is not written in Python: faulthandler
+        else:
+            wanted = present not in (signal.SIG_IGN, None) and _is_one_of(number, always)
+        if wanted:
             try:
                 signal.signal(number, handler)
             except (OSError, ValueError):  # the system keeps it for itself
@@ -151,55 +174,94 @@ class Interrupts:
             self._stopping = number
         elif _is_one_of(number, _TERMINAL_STOP):
             self._stopped_by = number
-            self.at_once()
+            try:
+                self.at_once()
+            except Exception:  # noqa: BLE001 - it is to stop all the same
+                _LOG.exception("what was to be done before a signal has failed")
             _let_it(number, self.note)
         else:
             self._ending = number
 
 
+class Speaker(Protocol):
+    """Who has something to do before a signal ends or stops the process."""
+
+    def speak_last(self) -> None:
+        """Do it, in a thread of its own, while the main thread stands still wherever it was."""
+        ...
+
+    def go_on(self) -> None:
+        """The process was only stopped, and goes on; is called in the main thread.
+
+        What this raises is raised in what the signal has interrupted.
+        """
+        ...
+
+
 class LastWords:
     """What is still to be done when a signal ends or stops the process.
 
-    Handlers are set while there is something to do, only for signals to which nobody else listens,
-    and never for Ctrl-C, which is an exception in Python. After the last words the signal does
-    what it would have done.
+    Handlers are set while there is something to do, only for signals to which nobody else listens:
+    Ctrl-C for example is an exception in Python, unless somebody has undone that. After the last
+    words the signal does what it would have done.
     """
 
     def __init__(self) -> None:
-        self._actions: list[Callable[[], object]] = []
+        self._speakers: tuple[Speaker, ...] = ()
         self._before: dict[int, Any] = {}
         self._lock = threading.RLock()
 
-    def add(self, action: Callable[[], object]) -> None:
-        """Have something done; it has to be quick, and works beside any thread."""
+    def add(self, speaker: Speaker) -> None:
+        """Have somebody say what is left to say."""
         with self._lock:
-            self._actions.append(action)
-            if not self._before:
-                numbers = _numbers() - {signal.SIGINT}
-                self._before = _install(numbers, self._speak, frozenset())
+            self._speakers = (*self._speakers, speaker)
+            self._before |= _install(_numbers(), self._speak, frozenset())
 
-    def discard(self, action: Callable[[], object]) -> None:
-        """Have it done no more, if it was to be."""
+    def discard(self, speaker: Speaker) -> None:
+        """Let somebody say nothing any more."""
         with self._lock:
-            if action in self._actions:
-                self._actions.remove(action)
-            if not self._actions and threading.current_thread() is threading.main_thread():
-                before, self._before = self._before, {}
-                # What somebody has set meanwhile is theirs.
-                mine = {number: old for number, old in before.items() if self._is_mine(number)}
-                _restore(mine)
+            self._speakers = tuple(each for each in self._speakers if each is not speaker)
+            if not self._speakers and threading.current_thread() is threading.main_thread():
+                self._take_off()
 
-    def _is_mine(self, number: int) -> bool:
-        return signal.getsignal(number) == self._speak
+    def forget(self) -> None:
+        """Let nobody say anything: this process is a copy of the one in which they live."""
+        self._lock = threading.RLock()  # another thread may have held it, which is not here
+        self._speakers = ()
+        self._take_off()
+
+    def _take_off(self) -> None:
+        before, self._before = self._before, {}
+        for number, handler in before.items():
+            if signal.getsignal(number) == self._speak:  # what somebody has set since is theirs
+                signal.signal(number, handler)
 
     def _speak(self, number: int, _frame: FrameType | None) -> None:
-        for action in tuple(self._actions):
-            try:
-                action()
-            except Exception:  # noqa: BLE001 - the others are to have theirs
-                _LOG.exception("what was to be done before a signal has failed")
+        speakers = self._speakers
+        # Not in this thread: it may hold any lock, and a bus that hangs must not hold it up.
+        threads = [_started(each.speak_last) for each in speakers]
+        end = time.monotonic() + _PATIENCE
+        for thread in threads:
+            if thread:
+                thread.join(max(end - time.monotonic(), 0))
         _let_it(number, self._speak)
+        for each in speakers:
+            each.go_on()
+
+
+def _started(action: Callable[[], object]) -> threading.Thread | None:
+    """The thread in which something is being done; None where it had to be done here."""
+    thread = threading.Thread(target=action, name="swapcan-last-words", daemon=True)
+    try:
+        thread.start()
+    except RuntimeError:  # the interpreter is ending, or there are too many threads
+        action()
+        return None
+    return thread
 
 
 LAST_WORDS = LastWords()
 """Of this process."""
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=LAST_WORDS.forget)

@@ -8,11 +8,15 @@ from importlib import resources
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from typedcan.model.errors import TypedcanError
 from typedcan.wire import codec, link, receiver
 from typedcan.wire import database as databases
 from typedcan.wire.message import Message
 from typedcan.wire.protect import Algorithm
 from typedcan.wire.protocol import Protocol
+
+SwapcanError = TypedcanError
+"""Base of all errors that are raised on purpose."""
 
 
 class Codec(codec.Codec):

@@ -10,6 +10,7 @@ from typing import Any
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.messages import BMS_TMS_0, B2C_Charger, ChargeControl, HvRequest
 from swapcan.node import Node
 from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message
@@ -74,6 +75,15 @@ def frames_on(bus: can.BusABC) -> list[can.Message]:
     while frame := bus.recv(0):
         frames.append(frame)
     return frames
+
+
+def at_rest(kind: type[Message]) -> Message:
+    """A message that asks for nothing: also one whose fields have to be given."""
+    if kind is B2C_Charger:
+        return B2C_Charger(charge_control=ChargeControl.NORMAL_STOP_TO_CHARGE)
+    if kind is BMS_TMS_0:
+        return BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF)
+    return kind()
 
 
 class Ear:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import can
 import pytest
 from node.bench import Bench, Ear
+from node.rough_bus import RoughBus, made_rough
 
 
 @pytest.fixture(autouse=True)
@@ -21,6 +22,18 @@ def no_thread_is_left() -> Iterator[None]:
 @pytest.fixture
 def bench() -> Bench:
     return Bench()
+
+
+@pytest.fixture
+def rough(near: can.BusABC) -> RoughBus:
+    """`near`, which fails and hangs as it is told to."""
+    return made_rough(near)
+
+
+@pytest.fixture
+def hurried_leaving(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where many nodes are left in a row: how the safe codes are spread is tested elsewhere."""
+    monkeypatch.setattr("swapcan.node.leaving._BETWEEN", 0.002)
 
 
 @pytest.fixture

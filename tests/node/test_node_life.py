@@ -10,10 +10,9 @@ from collections.abc import Callable
 import can
 import pytest
 from can.broadcastmanager import ThreadBasedCyclicSendTask
-from defaults import default_of
-from node.bench import Bench, Recorder
+from node.bench import Bench, Recorder, at_rest
 
-from swapcan import Received, TypedcanError
+from swapcan import Received, SwapcanError
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_RQ, B2V_ST1, B2V_ST2, V2B_CMD
 from swapcan.node import Node
@@ -38,7 +37,7 @@ def test_two_nodes_hear_each_other(near: can.BusABC, far: can.BusABC) -> None:
 def test_a_node_has_two_threads_whatever_it_sends(near: can.BusABC) -> None:
     before = threading.active_count()
     with Node(PROTOCOL, "BMU", near) as node:
-        node.set(*(default_of(kind) for kind in PROTOCOL.sent_by("BMU")))
+        node.set(*map(at_rest, PROTOCOL.sent_by("BMU")))
         assert threading.active_count() == before + 2
 
 
@@ -96,9 +95,9 @@ def test_a_node_can_be_started_again(near: can.BusABC, far: can.BusABC) -> None:
 
 def test_a_started_node_is_neither_started_nor_turned(near: can.BusABC) -> None:
     with Node(PROTOCOL, "BMU", near) as node:
-        with pytest.raises(TypedcanError, match="started already"):
+        with pytest.raises(SwapcanError, match="started already"):
             node.start()
-        with pytest.raises(TypedcanError, match="its threads turn it"):
+        with pytest.raises(SwapcanError, match="its threads turn it"):
             node.turn()
 
 

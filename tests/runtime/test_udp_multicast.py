@@ -85,13 +85,13 @@ def test_send_puts_one_frame_on_the_bus_and_prints_it(
     options: list[str],
     swapcan_command: Callable[..., subprocess.CompletedProcess[str]],
 ) -> None:
-    done = swapcan_command("send", "V2B_CMD", "hv_on_off=HV On", "vehicle_speed=42", *options)
+    done = swapcan_command("send", "V2B_CMD", "hv_on_off=HV Off", "vehicle_speed=42", *options)
     assert (done.returncode, done.stderr) == (0, "")
     link = Link(bus)
     received = link.receive(timeout=5.0)
     assert isinstance(received.message, V2B_CMD)
     assert received.message.vehicle_speed == 42.0
-    assert done.stdout.startswith("0x1802F3D0  [3A D0 2A FF FF FF 3F 00]  V2B_CMD  checksum=58  ")
+    assert done.stdout.startswith("0x1802F3D0  [0A E0 2A FF FF FF 3F 00]  V2B_CMD  checksum=10  ")
     assert received.frame.data.hex(" ").upper() in done.stdout
     with pytest.raises(ReceiveTimeoutError):
         link.receive(timeout=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 from collections.abc import Callable, Iterable
@@ -9,7 +10,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from swapcan.node.bus_timers import BusTimers, has_timers
-from swapcan.node.events import guarded
 from swapcan.node.port import Port
 from swapcan.node.schedule import Schedule
 from swapcan.node.transmit import Transmitter
@@ -17,6 +17,8 @@ from typedcan.wire.acting import acting_fields
 from typedcan.wire.clock import Clock
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message
+
+_LOG = logging.getLogger("swapcan")
 
 Maker = Callable[[], Iterable[Message]]
 """Gives the frames of one cycle."""
@@ -41,13 +43,18 @@ class Source:
 
 def frames_of(kind: type[Message], make: Maker, transmitter: Transmitter) -> tuple[Message, ...]:
     """The frames of one cycle; none where they cannot be made, which is reported."""
-    frames: tuple[Message, ...] | None = guarded(lambda: tuple(make()))
-    wrong = [frame for frame in frames or () if type(frame) is not kind]
+    try:
+        frames = tuple(make())
+    except Exception as error:  # noqa: BLE001 - what a user's function raises stops no node
+        if transmitter.failed(kind, error):
+            _LOG.exception("what is to make %s raised; the node goes on", kind.NAME)
+        return ()
+    wrong = [frame for frame in frames if type(frame) is not kind]
     if wrong:
         problem = f"was to be a {kind.NAME}, not {type(wrong[0]).__name__}"
         transmitter.failed(kind, SendingError(problem))
         return ()
-    return frames or ()
+    return frames
 
 
 class Cycles:

@@ -57,13 +57,17 @@ class SendFailed:
 
 @dataclass(frozen=True, slots=True)
 class ReceiveFailed:
-    """A frame could not be handled; it is reported once, until one can be again."""
+    """A frame could not be handled; it is reported once, until one like it can be again.
 
+    ``frame_id`` is its identifier.
+    """
+
+    frame_id: int
     error: str
     at: float
 
     def __str__(self) -> str:
-        return f"frame not handled: {self.error}"
+        return f"frame 0x{self.frame_id:08X} not handled: {self.error}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,15 +108,6 @@ Event = (
     | Overrun
 )
 """All that a node tells."""
-
-
-def guarded(function: Callable[..., Any], *arguments: object) -> Any:
-    """What a user's function returns; None where it raises, which is logged."""
-    try:
-        return function(*arguments)
-    except Exception:  # noqa: BLE001 - what a user's function raises must not stop the node
-        _LOG.exception(_RAISED)
-        return None
 
 
 class Stream:
@@ -195,15 +190,22 @@ class Dispatcher:
         return take_off
 
     def emit(self, event: object, kind: type | None = None) -> None:
-        """Tell an event to the callbacks of its type and of ``kind``, and to all streams."""
-        callbacks = self._callbacks
+        """Tell an event to the callbacks of its type and of ``kind``, and to all streams.
+
+        `SystemExit` and its like are raised again once all have been told.
+        """
+        callbacks, failure = self._callbacks, None
         for callback in (*callbacks.get(type(event), ()), *callbacks.get(kind, ())):
             try:
                 callback(event)
-            except Exception:  # noqa: BLE001 - as in `guarded`, whose call would cost as much
+            except Exception:  # noqa: BLE001 - what a user's function raises stops no node
                 _LOG.exception(_RAISED)
+            except BaseException as error:  # noqa: BLE001 - the others are told first
+                failure = failure or error
         for stream in self._streams:
             stream.put(event)
+        if failure:
+            raise failure
 
     def stream(self, limit: int) -> AsyncGenerator[Event, None]:
         """All events from now on, until `end_streams`; must be called on an event loop."""

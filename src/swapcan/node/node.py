@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import asyncio
-import logging
 from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
-from types import TracebackType
-from typing import Any, Self, TypeVar, overload
+from typing import Any, TypeVar, overload
 
 import can
 
@@ -16,23 +13,22 @@ from swapcan.node.cycles import Maker
 from swapcan.node.engine import Engine, Leave
 from swapcan.node.events import Event
 from swapcan.node.request import Pending
+from swapcan.node.running import Running
 from swapcan.transfer import PackCode, PackCodeAssembler, Vin, VinAssembler
 from swapcan.wire import Codec
 from typedcan.supervise import State, Supervisor
 from typedcan.supervise.snapshot import Snapshot
 from typedcan.wire.clock import Clock, SystemClock
-from typedcan.wire.errors import RequestError, StillActingError
+from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
-
-_LOG = logging.getLogger("swapcan")
 
 EventT = TypeVar("EventT")
 AnswerT = TypeVar("AnswerT")
 
 
-class Node:
+class Node(Running):
     """One node of a protocol on a bus of python-can, live.
 
     Use it in ``with`` or ``async with``, or `start` and `stop` it: two threads then send what is
@@ -40,13 +36,14 @@ class Node:
     on a clock of one's own. Leaving stops what the node started and nothing else.
 
     Callbacks run one after another in the thread that receives; while that hangs, in the bus or in
-    a callback, what time alone changes is told by the one that sends. Whatever exception a bus
-    raises is trouble that is reported, and tried again; a node that cannot go on tells it as
-    `NodeFailed`, and sends no more. Signals that end a process, SIGTERM among them, end what acts
-    first where the program does not handle them itself and the node was started in the main thread.
-    The interface of the bus must let
-    one thread send while another receives, as most do; `can.ThreadSafeBus` helps those that do
-    not.
+    a callback, what time alone changes is told by a third. The interface of the bus must let one
+    thread send while another receives, as most do; `can.ThreadSafeBus` helps those that do not.
+
+    Whatever exception a bus raises is trouble that is reported, and tried again. A node that cannot
+    go on, since a bus or a callback raised `SystemExit` for example, tells it as `NodeFailed`, ends
+    what acts and sends no more. So it does where a signal ends or stops the process, SIGTERM or
+    Ctrl-Z for example, if it was started in the main thread and the program leaves that signal
+    alone, and where the program ends without stopping it.
 
     Parameters
     ----------
@@ -129,8 +126,8 @@ class Node:
     def supply(self, kind: type[Message], make: Maker, *, period: float | None = None) -> None:
         """Send a message cyclically; ``make`` is asked for the frames of each cycle anew.
 
-        It is called in the thread that sends. What it returns that cannot be sent is reported as
-        `SendFailed`.
+        It is called in the thread that sends. What it raises, or returns that cannot be sent, is
+        reported as `SendFailed`.
         """
         self._outbox.supply(kind, make, period)
 
@@ -172,8 +169,9 @@ class Node:
         """Call back with each `Received` of a message class, or with each event of a class.
 
         Event classes are `Received`, for all messages, `Fault`, those of supervision and
-        transfers, `BusLost`, `BusBack` and `SendFailed`. Returns what takes the callback off.
-        What a callback raises is logged, by "swapcan", and stops nothing.
+        transfers, `BusLost`, `BusBack`, `SendFailed`, `ReceiveFailed` and `NodeFailed`. Returns
+        what takes the callback off. An exception of a callback is logged, by "swapcan", and stops
+        nothing; what is no `Exception`, such as `SystemExit`, ends the node.
         """
         return self._engine.dispatcher.on(kind, callback)
 
@@ -241,88 +239,10 @@ class Node:
         timeout: float,
         again: float,
     ) -> Pending[AnswerT]:
+        self._outbox.check_open()
         for request in self.protocol.requests:
             if answer in request.answers and self.name == request.field.message.SENDER:
                 return self._engine.requests.begin(
                     name, request, collector, timeout=timeout, again=again, now=self.clock.now()
                 )
         raise RequestError(f"{self.name} has no request for the {name}")
-
-    # Life
-
-    def start(self) -> None:
-        """Begin to send and to receive, in two threads."""
-        self._engine.start()
-
-    def stop(self) -> None:
-        """End what the node began; does nothing where there is nothing to end.
-
-        Requests under way end with `RequestError`. The bus stays open. What acts is ended first,
-        see ``leave``; raises `StillActingError` where the bus did not take the safe codes.
-        """
-        self._engine.stop()
-
-    def __enter__(self) -> Self:
-        self.start()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        self._stop_after(error)
-
-    async def __aenter__(self) -> Self:
-        self.start()
-        return self
-
-    async def __aexit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        self._engine.ask_to_stop()
-        try:
-            while self._engine.runs:
-                await asyncio.sleep(0.005)
-        finally:
-            self._stop_after(error)
-
-    def _stop_after(self, error: BaseException | None) -> None:
-        """Stop; what is wrong with that is told beside the error that a block was left with."""
-        try:
-            self.stop()
-        except StillActingError as failure:
-            if error is None:
-                raise
-            error.add_note(f"{self.name}: {failure}")
-            _LOG.error("%s: %s", self.name, failure)
-
-    @property
-    def acting(self) -> tuple[Message, ...]:
-        """The messages that were sent last with a code that acts, such as high voltage on."""
-        return self._engine.acting
-
-    def send_safe_codes(self) -> Exception | None:
-        """Send now, without receiving first, the safe codes of what was commanded.
-
-        What is sent cyclically goes on as it was set. Returns what the bus raised, if it did.
-        """
-        return self._engine.send_safe_codes()
-
-    # Driven by hand
-
-    @property
-    def next_due(self) -> float:
-        """When `turn` has something to do if nothing arrives; `math.inf` for never."""
-        return self._engine.next_due
-
-    def turn(self) -> None:
-        """Take what has arrived, let time pass up to the clock's, and send what is due.
-
-        For a node that is not started.
-        """
-        self._engine.turn()

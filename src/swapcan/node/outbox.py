@@ -9,6 +9,7 @@ import threading
 from collections.abc import Iterable, Mapping, Sequence
 
 from swapcan.node.cycles import Cycles, Maker, Source, frames_of
+from swapcan.node.life import Life
 from swapcan.node.port import Port
 from swapcan.node.transmit import Transmitter
 from typedcan.wire.clock import Clock
@@ -18,6 +19,9 @@ from typedcan.wire.protocol import Protocol
 
 _ANSWER_GAP = 0.005
 """Seconds between the frames of an answer that is sent once."""
+
+_AT_MOST = 0.1
+"""Seconds to wait for somebody who changes what is sent."""
 
 
 class Outbox:
@@ -51,7 +55,7 @@ class Outbox:
         self._answers: dict[type[Message], Source] = {}
         self._asked: set[type[Message]] = set()
         self.closed = ""
-        """Why nothing is sent any more; empty while something is."""
+        """Why nothing is taken any more; empty while it is."""
 
     @property
     def next_due(self) -> float:
@@ -61,7 +65,11 @@ class Outbox:
 
     def set(self, messages: Iterable[Message], period: float | None) -> None:
         """See `Node.set`."""
-        self._check_open()
+        self.check_open()
+        self.put(messages, period)
+
+    def put(self, messages: Iterable[Message], period: float | None) -> None:
+        """The same, also where nothing is taken from others any more."""
         by_kind = self._checked(messages)
         _check_period(period)
         with self._changed:
@@ -76,7 +84,7 @@ class Outbox:
 
     def supply(self, kind: type[Message], make: Maker, period: float | None) -> None:
         """See `Node.supply`."""
-        self._check_open()
+        self.check_open()
         self._check(kind)
         _check_period(period)
         with self._changed:
@@ -85,13 +93,13 @@ class Outbox:
 
     def provide(self, messages: Iterable[Message]) -> None:
         """See `Node.provide`."""
-        self._check_open()
+        self.check_open()
         for kind, frames in self._checked(messages).items():
             self._provide(kind, Source.of(frames, kind.PERIOD))
 
     def provide_from(self, kind: type[Message], make: Maker) -> None:
         """See `Node.provide_from`."""
-        self._check_open()
+        self.check_open()
         self._check(kind)
         self._provide(kind, Source(make, kind.PERIOD))
 
@@ -107,7 +115,7 @@ class Outbox:
 
     def send(self, message: Message) -> None:
         """See `Node.send`."""
-        self._check_open()
+        self.check_open()
         self._check(type(message))
         self._transmitter.send(message)
         self._last[type(message)] = message
@@ -145,25 +153,30 @@ class Outbox:
 
     def run(self) -> None:
         """Send all that is due."""
-        while self._send_due_once() or self.cycles.send_next():
+        while self.send_next():
             pass
+
+    def send_next(self) -> bool:
+        """Send one frame that is due; False where none is."""
+        return self._send_due_once() or self.cycles.send_next()
 
     def run_once_only(self) -> None:
         """Send what is due and not cyclic."""
         while self._send_due_once():
             pass
 
-    def wait(self, stopping: threading.Event, at_most: float) -> None:
+    def wait(self, life: Life, at_most: float) -> None:
         """Wait until something is due or something changes, so many seconds at most."""
         with self._changed:
             left = self.next_due - self._clock.now()
-            if left > 0 and not stopping.is_set():
+            if left > 0 and not life.is_over:
                 self._changed.wait(min(left, at_most))
 
     def wake(self) -> None:
-        """Let `wait` return."""
-        with self._changed:
+        """Let `wait` return, unless somebody who hangs holds everything up."""
+        if self._changed.acquire(timeout=_AT_MOST):
             self._changed.notify_all()
+            self._changed.release()
 
     def _checked(self, messages: Iterable[Message]) -> Mapping[type[Message], tuple[Message, ...]]:
         """Messages by kind, once all of them have proved fit to be sent."""
@@ -174,7 +187,8 @@ class Outbox:
             by_kind[type(message)] = (*by_kind.get(type(message), ()), message)
         return by_kind
 
-    def _check_open(self) -> None:
+    def check_open(self) -> None:
+        """Raise `SendingError` where nothing is taken any more."""
         if self.closed:
             raise SendingError(self.closed)
 

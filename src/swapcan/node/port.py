@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 
 import can
 
@@ -48,7 +49,9 @@ class Port:
         self.on_new_bus: Callable[[], None] | None = None
         """Is called once another bus is in place."""
         self._owns_bus = False
-        self._lock = threading.Lock()
+        # Reentrant, as a signal may come here too.
+        self._lock = threading.RLock()
+        self._opening = threading.Lock()
         self._broken: set[str] = set()  # directions: "receive", "send"
         self._retry_at = math.inf
         self._delay = _FIRST_RETRY
@@ -93,6 +96,11 @@ class Port:
             self._fails("receive", error)
             return None
 
+    def renew(self) -> None:
+        """Open another bus now where the one at hand is lost; raises what that raises."""
+        if self._retry_at < math.inf and self._reopen:
+            self._open_another(self._reopen)
+
     def close(self) -> None:
         """Close the bus if it was opened here."""
         if self._owns_bus:
@@ -112,10 +120,15 @@ class Port:
         return frame
 
     def _open_another(self, reopen: Callable[[], can.BusABC]) -> can.BusABC:
-        # Before the new one: most adapters can be open only once.
-        self.close()
-        self._bus = reopen()
-        self._owns_bus = True
+        if not self._opening.acquire(blocking=False):
+            raise can.CanInitializationError("another bus is being opened already")
+        try:
+            with suppress(Exception):  # a bus that is gone need not be closed
+                self.close()  # before the new one: most adapters can be open only once
+            self._bus = reopen()
+            self._owns_bus = True
+        finally:
+            self._opening.release()
         if self.on_new_bus:
             self.on_new_bus()
         return self._bus

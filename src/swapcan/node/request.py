@@ -13,6 +13,7 @@ from typing import Any, Generic, TypeVar
 
 from swapcan.node.answers import Collector
 from typedcan.wire.errors import RequestError, RequestTimeoutError
+from typedcan.wire.link import Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Request
 
@@ -44,6 +45,29 @@ class Pending(Generic[T]):
     def cancel(self) -> bool:
         """Withdraw the request; False where it has ended."""
         return self._future.cancel()
+
+
+class RequestHearer:
+    """Hears what another node asks for, and asks for it no more."""
+
+    def __init__(
+        self,
+        request: Request,
+        ask: Callable[[type[Message]], object],
+        withdraw: Callable[[type[Message]], object],
+    ) -> None:
+        self._request = request
+        self._ask = ask
+        self._withdraw = withdraw
+
+    def __call__(self, received: Received, now: float) -> None:  # noqa: ARG002 - a Hearer
+        """Take the message with the request."""
+        code = getattr(received.message, self._request.field.field)
+        for answer in self._request.answers:
+            if code == self._request.code:
+                self._ask(answer)
+            elif code == self._request.withdraw:
+                self._withdraw(answer)
 
 
 @dataclasses.dataclass(slots=True)
@@ -120,10 +144,11 @@ class Requests:
         future.add_done_callback(lambda _: self._withdraw(conversation))
         return Pending(future)
 
-    def take(self, message: Message, now: float) -> None:
+    def hear(self, received: Received, now: float) -> None:
         """Take a message that may be an answer."""
         if not self._under_way:
             return
+        message = received.message
         with self._lock:
             asking = [
                 each for each in self._under_way.values() if type(message) in each.request.answers

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from typing import Literal
 
 import can
 
 from swapcan.node.events import SendFailed
 from swapcan.node.port import Port
 from swapcan.wire import Codec
-from typedcan.wire.acting import SentCommands
+from typedcan.wire.acting import SentCommands, acts
 from typedcan.wire.clock import Clock
-from typedcan.wire.errors import one_line
+from typedcan.wire.errors import SendingError, one_line
 from typedcan.wire.message import Message
 from typedcan.wire.protect import SendCounters
+
+Sends = Literal["all", "what does not act", "nothing"]
+"""What is sent; the safe codes of what acts always are."""
 
 _AT_MOST = 0.5
 """Seconds to wait for a transmission of another thread before the safe codes are sent beside it."""
@@ -33,6 +37,13 @@ class Transmitter:
         self._counters = SendCounters()
         self._failing: set[type[Message]] = set()
         self._commands = SentCommands()
+        self._under_way: Message | None = None
+        self._under_way_in: int | None = None
+        self._waited_out: Message | None = None
+        self.sends: Sends = "all"
+        """Once this is less, it is less for every transmission that has not begun yet."""
+        self.ends_safe = True
+        """Whether what acts gets its safe codes where it went out after it was to."""
         # Reentrant: a signal may come in the middle of a transmission, and end the process.
         self._lock = threading.RLock()
 
@@ -43,7 +54,16 @@ class Transmitter:
     @property
     def acting(self) -> tuple[Message, ...]:
         """The messages that were sent last with a code that acts."""
-        return self._commands.acting
+        acting = self._commands.acting
+        hanging = self._under_way
+        if hanging is None or type(hanging) in map(type, acting) or not acts(hanging):
+            return acting
+        return (*acting, hanging)  # its safe codes may have overtaken it
+
+    @property
+    def is_sending_here(self) -> bool:
+        """Whether the thread that asks is in the middle of a transmission."""
+        return self._under_way_in == threading.get_ident()
 
     def frame(self, message: Message, *, safe: bool = False) -> can.Message:
         """The frame of a message as it would go out next; ``safe`` as `Codec.encode` has it."""
@@ -57,49 +77,74 @@ class Transmitter:
     def send(self, message: Message) -> None:
         """Send a message; the counter goes on once the bus has accepted the frame.
 
-        Raises `EncodeError` and what the bus raises.
+        Raises `EncodeError`, what the bus raises, and `SendingError` for what is sent no more.
         """
         with self._lock:
+            if self._refuses(message):
+                raise SendingError(f"{message.NAME}: the node is being left, it is sent no more")
             frame = self.frame(message)
             self._commands.begin(message)
-            self._port.send(frame)
-            self._commands.end(message)
-            self._counters.advance(type(message))
+            self._under_way, self._under_way_in = message, threading.get_ident()
+            try:
+                self._port.send(frame)
+            except BaseException:
+                self._commands.begin(message)  # as far as is known it is on the bus
+                raise
+            else:
+                self._commands.end(message)
+                self._counters.advance(type(message))
+            finally:
+                self._under_way = self._under_way_in = None
+                if self.ends_safe and self.acting and self._refuses(message):
+                    # The node was left while this was under way: it is left again, if it can be.
+                    self.send_safe_codes(settle=False)
         self._failing.discard(type(message))
 
-    def send_safe_codes(self) -> Exception | None:
+    def send_safe_codes(self, *, settle: bool = True) -> Exception | None:
         """Send each message that can act and was sent, with its safe codes.
 
-        Returns what the first one raised that could not be sent; the others are sent all the same.
+        With ``settle`` what has gone out so counts as acting no more.
+        Returns what the first one raised that could not be sent; the others are sent all the same,
+        also before `KeyboardInterrupt` and its like are raised again.
         """
-        failure: Exception | None = None
-        # A thread that hangs in the bus must not keep the others from trying.
-        held = self._lock.acquire(timeout=_AT_MOST)
+        failure: BaseException | None = None
+        # A thread that hangs in the bus must not keep the others from trying, and not each time.
+        is_waited_out = self._under_way is not None and self._under_way is self._waited_out
+        held = self._lock.acquire(timeout=0 if is_waited_out else _AT_MOST)
+        self._waited_out = None if held else self._under_way
         try:
             for message in self._commands.all:
                 try:
-                    self._send_safe(message)
-                except Exception as error:  # noqa: BLE001 - whatever a bus or an algorithm raises
+                    self._port.send(self.frame(message, safe=True))
+                    self._counters.advance(type(message))
+                    if settle:
+                        self._commands.made_safe(message)
+                except BaseException as error:  # noqa: BLE001 - the others have to be tried
                     failure = failure or error
         finally:
             if held:
                 self._lock.release()
-        return failure
-
-    def _send_safe(self, message: Message) -> None:
-        self._port.send(self.frame(message, safe=True))
-        self._commands.made_safe(message)
-        self._counters.advance(type(message))
+        if failure is None or isinstance(failure, Exception):
+            return failure
+        raise failure
 
     def try_to_send(self, message: Message) -> None:
         """Send a message, or report that it cannot be sent, once until it can."""
         try:
-            self.send(message)
+            if not self._refuses(message):
+                self.send(message)
         except Exception as error:  # noqa: BLE001 - whatever a bus or an algorithm raises
             self.failed(type(message), error)
 
-    def failed(self, kind: type[Message], error: Exception) -> None:
-        """Report that a message cannot be sent, unless that is known."""
-        if kind not in self._failing:
-            self._failing.add(kind)
-            self._report(SendFailed(kind, one_line(error), self._clock.now()))
+    def failed(self, kind: type[Message], error: Exception) -> bool:
+        """Report that a message cannot be sent, unless that is known; whether it was news."""
+        if kind in self._failing:
+            return False
+        self._failing.add(kind)
+        self._report(SendFailed(kind, one_line(error), self._clock.now()))
+        return True
+
+    def _refuses(self, message: Message) -> bool:
+        if self.sends == "what does not act":
+            return acts(message)
+        return self.sends == "nothing"

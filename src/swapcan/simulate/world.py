@@ -6,17 +6,29 @@ import heapq
 import itertools
 import math
 import threading
+import time
 from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Self
 
+from swapcan.process_signals import LAST_WORDS
 from swapcan.simulate.line import Line
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
 from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
+from typedcan.wire.errors import StillActingError, one_line
 
 STEP = 0.01
 """Seconds from one step of the participants to the next."""
+
+_TIMES = 5
+"""How often safe codes are sent in the end."""
+
+_BETWEEN = 0.05
+"""Seconds from one time to the next."""
+
+_PATIENCE = 1.5
+"""Seconds to wait for the thread to end; one that hangs in a driver never does."""
 
 
 class World:
@@ -94,9 +106,21 @@ class World:
             if node.acting:
                 node.send_safe_codes()
 
+    def speak_last(self) -> None:
+        """Before a signal ends or stops the process: nothing acts any more."""
+        self._stop.set()
+        if self._thread:
+            self._thread.join(_PATIENCE)
+        self._leave()
+
+    def go_on(self) -> None:
+        """After a signal that only stopped the process."""
+
     def __enter__(self) -> Self:
         self._stop.clear()
-        self._thread = threading.Thread(target=self._live_apart, name="swapcan-world")
+        self._thread = threading.Thread(target=self._live_apart, name="swapcan-world", daemon=True)
+        if not isinstance(self.clock, SimulatedClock):
+            LAST_WORDS.add(self)
         self._thread.start()
         return self
 
@@ -108,19 +132,36 @@ class World:
     ) -> None:
         self._stop.set()
         if self._thread:
-            self._thread.join()
+            self._thread.join(_PATIENCE)
             self._thread = None
-        if not isinstance(self.clock, SimulatedClock):
-            self.send_safe_codes()
+        self._leave()
+        LAST_WORDS.discard(self)
         failure, self._failure = self._failure, None
+        names = [message.NAME for node in self._nodes for message in node.acting]
+        if names and not isinstance(self.clock, SimulatedClock):
+            still_acting = StillActingError(names, "the bus does not take them")
+            still_acting.__cause__, failure = failure, still_acting
         if failure and error is None:
             raise failure
+        if failure and error:
+            error.add_note(one_line(failure))
+
+    def _leave(self) -> None:
+        """In real time send the safe codes of what acts, several times: a frame can get lost."""
+        acting = [node for node in self._nodes if node.acting]
+        if isinstance(self.clock, SimulatedClock):
+            return
+        for _ in range(_TIMES if acting else 0):
+            for node in acting:
+                node.send_safe_codes()
+            time.sleep(_BETWEEN)
 
     def _live_apart(self) -> None:
         try:
             self._live(math.inf)
         except BaseException as failure:  # noqa: BLE001  (is raised where the world is left)
             self._failure = failure
+            self._leave()
 
     def _live(self, seconds: float) -> None:
         now = self.clock.now()

@@ -68,10 +68,16 @@ class SentCommands:
                 self._acting.add(kind)
 
     def end(self, message: Message) -> None:
-        """The bus has accepted a message: what it does not command is commanded no more."""
+        """The bus has accepted a message: what it does not command is commanded no more.
+
+        One that acts counts again: safe codes may have overtaken it.
+        """
         kind = type(message)
-        if kind in self._acting and not acts(message):
-            self._acting.discard(kind)
+        if acting_fields(kind):
+            if acts(message):
+                self._acting.add(kind)
+            else:
+                self._acting.discard(kind)
 
     def made_safe(self, message: Message) -> None:
         """The bus has accepted a message with its safe codes."""
@@ -80,7 +86,8 @@ class SentCommands:
     @property
     def acting(self) -> tuple[Message, ...]:
         """Those of which the last one acts, as far as is known."""
-        return tuple(message for kind, message in self._last.items() if kind in self._acting)
+        last = tuple(self._last.items())  # another thread may send a first one meanwhile
+        return tuple(message for kind, message in last if kind in self._acting)
 
     @property
     def all(self) -> tuple[Message, ...]:

@@ -1,0 +1,320 @@
+"""A node that has commanded something that acts ends it before it leaves, however it is left."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import threading
+import time
+from collections.abc import Callable
+from itertools import pairwise
+
+import can
+import pytest
+from node.bench import Bench, Recorder, at_rest, frames_on
+from node.rough_bus import (
+    RoughBus,
+    commands,
+    frames_until,
+    is_off,
+    is_on,
+    raising,
+    rest,
+    signals,
+    trailing_offs,
+)
+
+from swapcan import StillActingError, encode
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.messages import (
+    B2V_RQ,
+    B2V_ST2,
+    BMS_TMS_0,
+    V2B_CMD,
+    AccessoryHvCommand,
+    B2C_Charger,
+    ChargeControl,
+    HeatCommand,
+    HvCommand,
+    HvRequest,
+    ThermalMode,
+    V2B_RQData,
+)
+from swapcan.node import BusLost, Node
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import FieldRef, Request
+
+ON = V2B_CMD(
+    hv_on_off=HvCommand.HV_ON,
+    hv_acc_on_off=AccessoryHvCommand.HV_ACC_ON,
+    heat_on_off=HeatCommand.HEAT_ON,
+    vehicle_speed=42.0,
+)
+
+
+def set_on(node: Node) -> None:
+    node.set(ON)
+
+
+def send_on(node: Node) -> None:
+    node.send(ON)
+
+
+def supply_on(node: Node) -> None:
+    node.supply(V2B_CMD, lambda: [ON])
+
+
+def set_one_of_them(node: Node) -> None:
+    node.set(V2B_CMD(heat_on_off=HeatCommand.HEAT_ON))
+
+
+def clear_what_is_on(node: Node) -> None:
+    node.send(ON)
+    node.clear(V2B_CMD)
+
+
+@pytest.mark.parametrize("turn_on", [set_on, send_on, supply_on, set_one_of_them, clear_what_is_on])
+def test_whatever_is_on_is_off_in_the_last_commands(
+    near: can.BusABC, far: can.BusABC, turn_on: Callable[[Node], None]
+) -> None:
+    with Node(PROTOCOL, "VCU", near) as node:
+        turn_on(node)
+        heard = frames_until(far, lambda frame: not is_off(frame))
+        assert node.acting
+    offs = trailing_offs(heard + rest(far))
+    assert len(offs) >= 5
+    assert node.acting == ()
+    gaps = [b.timestamp - a.timestamp for a, b in pairwise(offs[-5:])]
+    assert min(gaps) > 0.025  # spread over a quarter of a second: one disturbance ends in less
+    assert signals(offs[-1])["V2B_CMD_VehicleSpeed"] == (0 if turn_on is set_one_of_them else 42)
+
+
+def test_an_answer_that_acts_is_ended_too(near: can.BusABC, far: can.BusABC) -> None:
+    asks = Request(field=FieldRef(B2V_RQ, "vin"), code=1, withdraw=2, answers=(V2B_CMD,))
+    protocol = dataclasses.replace(PROTOCOL, requests=(asks,))
+    with Node(protocol, "VCU", near) as node:
+        node.provide(ON)
+        far.send(can.Message(arbitration_id=B2V_RQ.FRAME_ID, data=encode(B2V_RQ(vin=1))))
+        heard = frames_until(far, is_on)
+    assert len(trailing_offs(heard + rest(far))) >= 5
+
+
+def test_what_still_waits_to_go_out_once_is_not_turned_on_in_the_end(
+    bench: Bench, near: can.BusABC, far: can.BusABC, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(V2B_CMD, "PERIOD", None)
+    node = bench.node("VCU", near)
+    node.set(ON)
+    node.stop()
+    assert rest(far) == []
+    node.set(ON)
+    node.turn()
+    assert is_on(rest(far)[-1])  # by hand it goes on as before
+    with Node(PROTOCOL, "VCU", near) as live:
+        live.set(ON)
+    assert all(map(is_off, rest(far)[-5:]))
+
+
+def test_every_message_that_acts_is_ended_with_its_own_codes(
+    near: can.BusABC, far: can.BusABC
+) -> None:
+    acting = {
+        B2C_Charger: B2C_Charger(charge_control=ChargeControl.START_TO_CHARGE, current_set=50.0),
+        BMS_TMS_0: BMS_TMS_0(
+            reqst_tms_hv_on=HvRequest.REQUEST_HV_ON, reqst_set_tms_sts=ThermalMode.COOLING
+        ),
+    }
+    safe = {
+        B2C_Charger: {"B2V_S_ChargeControl": 1},
+        BMS_TMS_0: {"BMS_ReqstTMSHVon": 1, "BMS_ReqstSetTMSts": 0},
+    }
+    wanted = {kind.FRAME_ID for kind in acting}
+
+    def has_come(frame: can.Message) -> bool:
+        wanted.discard(frame.arbitration_id)
+        return not wanted
+
+    with Node(PROTOCOL, "BMU", near) as node:
+        for message in acting.values():
+            node.set(message, period=0.05)
+        heard = frames_until(far, has_come)
+    heard += rest(far)
+    for kind, codes in safe.items():
+        frames = [frame for frame in heard if frame.arbitration_id == kind.FRAME_ID]
+        for frame in frames[-5:]:
+            assert {name: signals(frame)[name] for name in codes} == codes
+    lives = [frame.data[6] for frame in heard if frame.arbitration_id == BMS_TMS_0.FRAME_ID]
+    assert lives == list(range(len(lives)))
+    assert signals(heard[-1]).get("B2C_S_CurrentSet", 50 * 10) == 50 * 10
+
+
+def test_a_node_that_has_commanded_nothing_leaves_at_once_and_says_nothing(
+    near: can.BusABC, far: can.BusABC
+) -> None:
+    with Node(PROTOCOL, "VCU", near) as node:
+        node.set(V2B_CMD(hv_on_off=HvCommand.HV_OFF))
+        heard = frames_until(far, lambda frame: True)
+        start = time.perf_counter()
+    assert time.perf_counter() - start < 0.2
+    heard += rest(far)
+    # Cyclic ones of 50 ms, and no burst in the end.
+    assert len(heard) <= 1 + (heard[-1].timestamp - heard[0].timestamp) / 0.05 + 1
+
+
+def test_a_node_that_is_left_silently_says_nothing(near: can.BusABC, far: can.BusABC) -> None:
+    with Node(PROTOCOL, "VCU", near, leave="silent") as node:
+        node.set(ON)
+        heard = frames_until(far, is_on)
+        start = time.perf_counter()
+    assert time.perf_counter() - start < 0.2
+    assert all(map(is_on, heard + rest(far)))
+    assert node.acting == (ON,)
+    assert frames_until_quiet(far) == []
+
+
+def frames_until_quiet(bus: can.BusABC) -> list[can.Message]:
+    """What comes in in the time of three periods."""
+    frames = []
+    while frame := bus.recv(0.15):
+        frames.append(frame)
+    return frames
+
+
+def test_off_is_the_last_word_where_sending_fails_at_first(
+    rough: RoughBus, far: can.BusABC
+) -> None:
+    with Node(PROTOCOL, "VCU", rough) as node:
+        node.set(ON)
+        heard = frames_until(far, is_on)
+        rough.before_send = raising(lambda: IndexError("out of range"), times=7)
+    assert len(trailing_offs(heard + rest(far))) >= 5
+    assert node.acting == ()
+
+
+def test_a_bus_that_takes_nothing_any_more_is_said_to_be_live(
+    rough: RoughBus, far: can.BusABC
+) -> None:
+    node = Node(PROTOCOL, "VCU", rough)
+
+    def drive() -> None:
+        with node:
+            node.set(ON)
+            frames_until(far, is_on)
+            rough.before_send = raising(lambda: OSError(100, "Network is down"))
+
+    with pytest.raises(StillActingError, match="TAKE IT FOR LIVE") as raised:
+        drive()
+    assert raised.value.messages == ("V2B_CMD",)
+    assert "V2B_CMD" in str(raised.value)
+    assert "Network is down" in raised.value.cause
+    assert isinstance(raised.value.__cause__, OSError)
+    with pytest.raises(StillActingError):  # it is tried once more, as often as one asks for it
+        node.stop()
+    rough.before_send = raising(OSError, times=0)
+    rest(far)
+    node.stop()
+    assert is_off(rest(far)[-1])
+    node.stop()
+    assert rest(far) == []
+
+
+def test_an_error_that_a_block_is_left_with_stays_and_gets_a_note(
+    rough: RoughBus, far: can.BusABC, caplog: pytest.LogCaptureFixture
+) -> None:
+    def drive() -> None:
+        with Node(PROTOCOL, "VCU", rough) as node:
+            node.set(ON)
+            frames_until(far, is_on)
+            rough.before_send = raising(can.CanOperationError)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError) as raised:
+        drive()
+    (said,) = raised.value.__notes__
+    assert "TAKE IT FOR LIVE" in said
+    assert said in caplog.messages
+
+
+def test_a_bus_that_was_lost_is_opened_anew_to_end_what_acts(
+    open_bus: Callable[..., can.BusABC], far: can.BusABC
+) -> None:
+    lent = open_bus()
+    may_open = threading.Event()
+
+    def reopen() -> can.BusABC:
+        if not may_open.is_set():
+            raise can.CanInitializationError("no such device")
+        return open_bus()
+
+    lost = Recorder()
+    node = Node(PROTOCOL, "VCU", lent, reopen=reopen)
+    node.start()
+    node.set(ON)
+    heard = frames_until(far, is_on)
+    node.on(BusLost, lost)
+    lent.shutdown()
+    lost.wait()
+    may_open.set()
+    node.stop()
+    assert len(trailing_offs(heard + rest(far))) >= 5
+
+
+def test_async_with_ends_what_acts(near: can.BusABC, far: can.BusABC) -> None:
+    async def scenario() -> list[can.Message]:
+        async with Node(PROTOCOL, "VCU", near) as node:
+            node.set(ON)
+            return await asyncio.to_thread(frames_until, far, is_on)
+
+    heard = asyncio.run(scenario())
+    assert len(trailing_offs(heard + rest(far))) >= 5
+
+
+def test_async_with_tells_what_could_not_be_ended(rough: RoughBus, far: can.BusABC) -> None:
+    async def scenario() -> None:
+        async with Node(PROTOCOL, "VCU", rough) as node:
+            node.set(ON)
+            await asyncio.to_thread(frames_until, far, is_on)
+            rough.before_send = raising(KeyError)
+
+    with pytest.raises(StillActingError, match="KeyError"):
+        asyncio.run(scenario())
+
+
+def test_two_nodes_end_what_each_has_commanded(
+    open_bus: Callable[..., can.BusABC], far: can.BusABC
+) -> None:
+    charge = B2C_Charger(charge_control=ChargeControl.START_TO_CHARGE)
+    with Node(PROTOCOL, "VCU", open_bus()) as vcu, Node(PROTOCOL, "BMU", open_bus()) as bmu:
+        vcu.set(ON)
+        bmu.set(charge)
+        heard = frames_until(far, lambda frame: frame.arbitration_id == charge.FRAME_ID)
+        heard += frames_until(far, lambda frame: frame.arbitration_id == V2B_CMD.FRAME_ID)
+    heard += rest(far)
+    assert len(trailing_offs(heard)) >= 5
+    chargers = [frame for frame in heard if frame.arbitration_id == charge.FRAME_ID]
+    assert [signals(frame)["B2V_S_ChargeControl"] for frame in chargers[-5:]] == [1] * 5
+
+
+def test_a_node_that_is_driven_by_hand_ends_what_acts_when_it_is_stopped(
+    bench: Bench, near: can.BusABC, far: can.BusABC
+) -> None:
+    node = bench.node("VCU", near)
+    node.set(ON, V2B_RQData())
+    bench.run(0.2)
+    heard = rest(far)
+    node.send(ON)
+    node.stop()
+    heard += rest(far)
+    assert len(trailing_offs(heard)) == 1
+    assert node.acting == ()
+
+
+@pytest.mark.parametrize("kind", [B2V_ST2, B2V_RQ])
+def test_what_does_not_act_is_not_sent_once_more(
+    near: can.BusABC, far: can.BusABC, kind: type[Message]
+) -> None:
+    with Node(PROTOCOL, "BMU", near) as node:
+        node.send(at_rest(kind))
+        node.send(at_rest(B2C_Charger))
+    assert len(frames_on(far)) == 2
+    assert commands(frames_on(far)) == []
