@@ -20,9 +20,9 @@ from simulate.commands import as_arguments, bus_options, started
 from swapcan import cli
 from swapcan.conform.live import stage
 from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, HvCommand
-from swapcan.process_signals import Interrupts
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.world import World
+from typedcan.shell.process_signals import Interrupts
 
 NO_INTERRUPTS = pytest.mark.skipif(
     sys.platform == "win32", reason="Windows has no SIGINT for one process"

@@ -16,7 +16,7 @@ from monitor.monitored import frame
 from swapcan.monitor.listener import Listener
 from swapcan.monitor.session import Session
 from swapcan.monitor.watch import Watch
-from swapcan.node.events import BusBack, BusLost
+from typedcan.node.events import BusBack, BusLost
 from typedcan.wire.clock import SystemClock
 
 

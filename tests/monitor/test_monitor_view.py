@@ -16,7 +16,7 @@ from monitor.screen import rows_of, screen_lines
 from textual.pilot import Pilot
 
 from swapcan.monitor.view import MonitorApp
-from swapcan.node.events import BusBack, BusLost
+from typedcan.node.events import BusBack, BusLost
 
 Steps = Callable[[Pilot[int]], Awaitable[None]]
 

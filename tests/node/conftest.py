@@ -33,7 +33,7 @@ def rough(near: can.BusABC) -> RoughBus:
 @pytest.fixture
 def hurried_leaving(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where many nodes are left in a row: how the safe codes are spread is tested elsewhere."""
-    monkeypatch.setattr("swapcan.node.leaving._BETWEEN", 0.002)
+    monkeypatch.setattr("typedcan.node.leaving._BETWEEN", 0.002)
 
 
 @pytest.fixture

@@ -22,8 +22,8 @@ from node.bench import Recorder
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1, B2V_ST2, B2V_ST3, B2V_Ucell
 from swapcan.node import Node
-from swapcan.node.bus_timers import has_timers
-from swapcan.node.events import BusBack
+from typedcan.node.bus_timers import has_timers
+from typedcan.node.events import BusBack
 
 
 class Task(LimitedDurationCyclicSendTaskABC):

@@ -15,7 +15,7 @@ from node.bench import Bench, Recorder, frames_on
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1, B2V_ST2, B2V_ST3
 from swapcan.node import Node
-from swapcan.node.events import BusBack, BusLost, SendFailed
+from typedcan.node.events import BusBack, BusLost, SendFailed
 
 
 class LooseBus(VirtualBus):

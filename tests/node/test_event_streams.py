@@ -13,8 +13,9 @@ from swapcan import Fault, Received
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1, B2V_ST2, V2B_VIN
 from swapcan.node import Node
-from swapcan.node.events import Event, Overrun
+from swapcan.node.answers import Event
 from swapcan.transfer import Vin, split_vin
+from typedcan.node.events import Overrun
 from typedcan.supervise import State, StateChanged
 
 

@@ -38,7 +38,7 @@ ON = V2B_CMD(hv_on_off=HvCommand.HV_ON)
 @pytest.fixture
 def short_patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """For threads that hang until the test releases them."""
-    monkeypatch.setattr("swapcan.node.engine._PATIENCE", 0.3)
+    monkeypatch.setattr("typedcan.node.engine._PATIENCE", 0.3)
 
 
 @pytest.fixture

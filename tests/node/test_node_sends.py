@@ -23,7 +23,7 @@ from swapcan.messages import (
     B2V_Ucell,
 )
 from swapcan.node import Node
-from swapcan.node.events import SendFailed
+from typedcan.node.events import SendFailed
 from typedcan.wire.errors import SendingError, UnknownNodeError
 
 

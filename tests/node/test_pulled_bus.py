@@ -13,7 +13,7 @@ from node.bench import Recorder
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1, B2V_ST2
 from swapcan.node import Node
-from swapcan.node.events import BusBack, BusLost
+from typedcan.node.events import BusBack, BusLost
 from typedcan.supervise import State, StateChanged
 
 GROUP = "239.74.163.2"

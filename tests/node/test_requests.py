@@ -22,8 +22,8 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
-from swapcan.node.request import Pending
 from swapcan.transfer import PackCode, Vin, split_pack_code, split_vin
+from typedcan.node.request import Pending
 from typedcan.wire.errors import RequestError, RequestTimeoutError
 
 CODE = "001PB0A1234567890123ABCD"

@@ -9,7 +9,7 @@ import pytest
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST2, B2V_ElecEnergy, B2V_Ucell
-from swapcan.node.schedule import Schedule
+from typedcan.node.schedule import Schedule
 from typedcan.wire.message import Message
 
 

@@ -23,7 +23,7 @@ from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
 from swapcan.console import CommandError, note
 from swapcan.monitor.recording import Recording
-from swapcan.process_signals import Interrupts
+from typedcan.shell.process_signals import Interrupts
 from typedcan.shell.progress import StatusLine
 
 _DURATION = 60.0

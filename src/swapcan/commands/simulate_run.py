@@ -14,10 +14,10 @@ from swapcan.commands.simulation_report import SimulationReport
 from swapcan.console import CommandError, note
 from swapcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
 from swapcan.drive.noting_bus import NotingBus
-from swapcan.process_signals import Interrupts
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
+from typedcan.shell.process_signals import Interrupts
 from typedcan.wire.clock import SystemClock
 
 

@@ -12,7 +12,7 @@ from typing import Self
 import can
 
 from swapcan.monitor.session import Session
-from swapcan.node.port import Port
+from typedcan.node.port import Port
 
 _WAIT = 0.1
 """Seconds in one call of the bus: as long as it takes to stop."""

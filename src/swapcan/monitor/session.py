@@ -13,7 +13,7 @@ import can
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.recording import Recording, RecordingError
 from swapcan.monitor.watch import Watch, WatchEvent
-from swapcan.node.events import BusBack, BusLost
+from typedcan.node.events import BusBack, BusLost
 from typedcan.wire.clock import Clock
 from typedcan.wire.link import Fault
 

@@ -1,17 +1,9 @@
 """Live nodes: `Node` sends, receives, supervises and asks; what it tells are its events."""
 
-from swapcan.node.answers import BatteryInfo
-from swapcan.node.events import (
-    BusBack,
-    BusLost,
-    Event,
-    NodeFailed,
-    Overrun,
-    ReceiveFailed,
-    SendFailed,
-)
+from swapcan.node.answers import BatteryInfo, Event
 from swapcan.node.node import Node
-from swapcan.node.request import Pending
+from typedcan.node.events import BusBack, BusLost, NodeFailed, Overrun, ReceiveFailed, SendFailed
+from typedcan.node.request import Pending
 from typedcan.wire.errors import SendingError, StillActingError
 
 __all__ = [

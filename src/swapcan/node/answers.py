@@ -1,40 +1,16 @@
-"""The answers to requests: how each is put together, and what is told where it does not come."""
+"""The answers of a pack that are no transfer, and all that a node tells."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Generic, Protocol, TypeVar
 
 from swapcan.messages import B2V_BattInfo1, B2V_BattInfo2
-from swapcan.transfer import Problem
+from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Vin
+from typedcan.node import events
 from typedcan.wire.message import Message
 
-T = TypeVar("T")
-T_co = TypeVar("T_co", covariant=True)
-
-
-class Collector(Protocol[T_co]):
-    """Puts the answer to one request together."""
-
-    def take(self, message: Message, at: float) -> T_co | None:
-        """Take a message of the answer; the answer once it is complete."""
-        ...
-
-    def missing(self) -> str:
-        """What is not there yet, in a few words."""
-        ...
-
-
-class Assembler(Protocol[T_co]):
-    """What puts a transfer together, such as `VinAssembler`."""
-
-    def take(self, message: Message, at: float) -> tuple[T_co | Problem, ...]:
-        """What a message brings about."""
-        ...
-
-    def missing(self) -> str:
-        """What still lacks for a result."""
-        ...
+Event = events.Event | Vin | PackCode | CellVoltages | ProbeTemperatures
+"""All that a node tells."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,27 +19,6 @@ class BatteryInfo:
 
     info1: B2V_BattInfo1
     info2: B2V_BattInfo2
-
-
-class TransferCollector(Generic[T]):
-    """Waits for a transfer to be complete, with an assembler that has seen nothing before."""
-
-    def __init__(self, assembler: Assembler[T]) -> None:
-        self._assembler = assembler
-        self._problem: Problem | None = None
-
-    def take(self, message: Message, at: float) -> T | None:
-        """Take a message of the transfer; its value once it is complete."""
-        for outcome in self._assembler.take(message, at):
-            if not isinstance(outcome, Problem):
-                return outcome
-            self._problem = outcome
-        return None
-
-    def missing(self) -> str:
-        """What still lacks, and what was wrong last."""
-        missing = self._assembler.missing()
-        return f"{missing} ({self._problem.text})" if self._problem else missing
 
 
 class BatteryInfoCollector:

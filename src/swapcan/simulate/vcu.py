@@ -30,10 +30,10 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
-from swapcan.node.request import Pending
 from swapcan.simulate.driving import Motion, Power, Profile, Trip, shuttle
 from swapcan.simulate.participant import Participant
 from swapcan.transfer import PackCode, split_vin
+from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received

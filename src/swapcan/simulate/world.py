@@ -11,10 +11,10 @@ from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Self
 
-from swapcan.process_signals import LAST_WORDS
 from swapcan.simulate.line import Line
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
+from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 from typedcan.wire.errors import StillActingError, one_line
 

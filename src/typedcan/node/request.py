@@ -11,7 +11,7 @@ from concurrent.futures import Future, InvalidStateError
 from contextlib import suppress
 from typing import Any, Generic, TypeVar
 
-from swapcan.node.answers import Collector
+from typedcan.node.answers import Collector
 from typedcan.wire.errors import RequestError, RequestTimeoutError
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message

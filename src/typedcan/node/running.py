@@ -8,7 +8,7 @@ import time
 from types import TracebackType
 from typing import Self
 
-from swapcan.node.engine import Engine
+from typedcan.node.engine import Engine
 from typedcan.wire.errors import StillActingError
 from typedcan.wire.message import Message
 

@@ -13,21 +13,22 @@ from typing import Literal
 
 import can
 
-from swapcan.node.events import Dispatcher, NodeFailed
-from swapcan.node.inbox import Hearer, Inbox
-from swapcan.node.leaving import Leaving
-from swapcan.node.life import Life
-from swapcan.node.outbox import Outbox
-from swapcan.node.port import Port
-from swapcan.node.reception import Notice, Reception
-from swapcan.node.request import RequestHearer, Requests
-from swapcan.node.transmit import Transmitter
-from swapcan.process_signals import LAST_WORDS
-from swapcan.wire import Codec
 from typedcan.model.errors import TypedcanError
+from typedcan.node.events import Dispatcher, NodeFailed
+from typedcan.node.inbox import Hearer, Inbox
+from typedcan.node.leaving import Leaving
+from typedcan.node.life import Life
+from typedcan.node.outbox import Outbox
+from typedcan.node.port import Port
+from typedcan.node.reception import Notice, Reception
+from typedcan.node.request import RequestHearer, Requests
+from typedcan.node.transmit import Transmitter
+from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.supervise import Supervisor
+from typedcan.transfer.collect import Transfers
 from typedcan.wire.acting import acting_fields
 from typedcan.wire.clock import Clock
+from typedcan.wire.codec import Codec
 from typedcan.wire.errors import SendingError, StillActingError, one_line
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
@@ -66,6 +67,7 @@ class Engine:
         supervisor: Supervisor,
         reopen: Callable[[], can.BusABC] | None,
         leave: Leave,
+        transfers: Transfers,
     ) -> None:
         self._name = name
         self._clock = clock
@@ -77,7 +79,7 @@ class Engine:
         self._port.on_new_bus = self.outbox.cycles.take_all_back
         self.requests = Requests(protocol, self._say, self.outbox.last)
         hearers = self._hearers(protocol)
-        self.inbox = Inbox(protocol, name, codec, supervisor, self.dispatcher, hearers)
+        self.inbox = Inbox(protocol, name, codec, supervisor, self.dispatcher, hearers, transfers)
         self._reception = Reception(
             self._port, self.inbox, self.requests, self.dispatcher, notices, clock
         )

@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 
-from swapcan.node.bus_timers import BusTimers, has_timers
-from swapcan.node.port import Port
-from swapcan.node.schedule import Schedule
-from swapcan.node.transmit import Transmitter
+from typedcan.node.bus_timers import BusTimers, has_timers
+from typedcan.node.port import Port
+from typedcan.node.schedule import Schedule
+from typedcan.node.transmit import Transmitter
 from typedcan.wire.acting import acting_fields
 from typedcan.wire.clock import Clock
 from typedcan.wire.errors import SendingError

@@ -7,15 +7,16 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import can
 
-from swapcan.node.events import Dispatcher
-from swapcan.transfer import Transfers
-from swapcan.wire import Codec, Receiver
+from typedcan.node.events import Dispatcher
 from typedcan.supervise import Supervisor
 from typedcan.supervise.events import State
 from typedcan.supervise.snapshot import Snapshot
+from typedcan.transfer.collect import Transfers
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
+from typedcan.wire.receiver import Receiver
 
 Hearer = Callable[[Received, float], object]
 """Takes a message and the second at which it came."""
@@ -30,6 +31,8 @@ class Inbox:
         The node. Where the bus gives its own messages back, they are no news.
     hearers
         By message, who else takes part in it.
+    transfers
+        What takes several frames.
     """
 
     def __init__(
@@ -40,12 +43,13 @@ class Inbox:
         supervisor: Supervisor,
         dispatcher: Dispatcher,
         hearers: Mapping[type[Message], Sequence[Hearer]],
+        transfers: Transfers,
     ) -> None:
         self._receiver = Receiver(codec)
         self._supervisor = supervisor
         self._emit = dispatcher.emit
         self._own = frozenset(kind.FRAME_ID for kind in protocol.sent_by(name))
-        self._transfers = Transfers(protocol)
+        self._transfers = transfers
         self._in_transfers = _in_transfers(protocol)
         self._hearers = hearers
         self._last: dict[type[Message], Received] = {}

@@ -9,7 +9,7 @@ from contextlib import suppress
 
 import can
 
-from swapcan.node.events import BusBack, BusLost
+from typedcan.node.events import BusBack, BusLost
 from typedcan.wire.clock import Clock
 from typedcan.wire.errors import one_line
 

@@ -9,11 +9,11 @@ from collections import deque
 
 import can
 
-from swapcan.node.events import BusBack, BusLost, Dispatcher, ReceiveFailed, SendFailed
-from swapcan.node.inbox import Inbox
-from swapcan.node.life import Life
-from swapcan.node.port import Port
-from swapcan.node.request import Requests
+from typedcan.node.events import BusBack, BusLost, Dispatcher, ReceiveFailed, SendFailed
+from typedcan.node.inbox import Inbox
+from typedcan.node.life import Life
+from typedcan.node.port import Port
+from typedcan.node.request import Requests
 from typedcan.wire.clock import Clock
 from typedcan.wire.errors import one_line
 

@@ -8,10 +8,10 @@ import math
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 
-from swapcan.node.cycles import Cycles, Maker, Source, frames_of
-from swapcan.node.life import Life
-from swapcan.node.port import Port
-from swapcan.node.transmit import Transmitter
+from typedcan.node.cycles import Cycles, Maker, Source, frames_of
+from typedcan.node.life import Life
+from typedcan.node.port import Port
+from typedcan.node.transmit import Transmitter
 from typedcan.wire.clock import Clock
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message

@@ -10,8 +10,8 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 from typing import Any
 
-from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
 from typedcan.supervise import SupervisionEvent
+from typedcan.transfer.problem import Problem
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 
@@ -95,10 +95,6 @@ Event = (
     Received
     | Fault
     | SupervisionEvent
-    | Vin
-    | PackCode
-    | CellVoltages
-    | ProbeTemperatures
     | Problem
     | BusLost
     | BusBack
@@ -107,7 +103,7 @@ Event = (
     | NodeFailed
     | Overrun
 )
-"""All that a node tells."""
+"""All that a node tells, beside the results of its transfers."""
 
 
 class Stream:
@@ -207,7 +203,7 @@ class Dispatcher:
         if failure:
             raise failure
 
-    def stream(self, limit: int) -> AsyncGenerator[Event, None]:
+    def stream(self, limit: int) -> AsyncGenerator[Any, None]:
         """All events from now on, until `end_streams`; must be called on an event loop."""
         stream = Stream(limit)
         with self._lock:
@@ -221,7 +217,7 @@ class Dispatcher:
         for stream in streams:
             stream.end()
 
-    async def _read(self, stream: Stream) -> AsyncGenerator[Event, None]:
+    async def _read(self, stream: Stream) -> AsyncGenerator[Any, None]:
         try:
             async for event in stream.read():
                 yield event

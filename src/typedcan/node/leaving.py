@@ -7,8 +7,8 @@ import threading
 import time
 from contextlib import suppress
 
-from swapcan.node.port import Port
-from swapcan.node.transmit import Transmitter
+from typedcan.node.port import Port
+from typedcan.node.transmit import Transmitter
 from typedcan.wire.errors import StillActingError, one_line
 
 _TIMES = 5

@@ -1,0 +1,56 @@
+"""The answers to requests: how each is put together, and what is told where it does not come."""
+
+from __future__ import annotations
+
+from typing import Generic, Protocol, TypeVar
+
+from typedcan.transfer.problem import Problem
+from typedcan.wire.message import Message
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+
+
+class Collector(Protocol[T_co]):
+    """Puts the answer to one request together."""
+
+    def take(self, message: Message, at: float) -> T_co | None:
+        """Take a message of the answer; the answer once it is complete."""
+        ...
+
+    def missing(self) -> str:
+        """What is not there yet, in a few words."""
+        ...
+
+
+class Assembler(Protocol[T_co]):
+    """What puts a transfer together."""
+
+    def take(self, message: Message, at: float) -> tuple[T_co | Problem, ...]:
+        """What a message brings about."""
+        ...
+
+    def missing(self) -> str:
+        """What still lacks for a result."""
+        ...
+
+
+class TransferCollector(Generic[T]):
+    """Waits for a transfer to be complete, with an assembler that has seen nothing before."""
+
+    def __init__(self, assembler: Assembler[T]) -> None:
+        self._assembler = assembler
+        self._problem: Problem | None = None
+
+    def take(self, message: Message, at: float) -> T | None:
+        """Take a message of the transfer; its value once it is complete."""
+        for outcome in self._assembler.take(message, at):
+            if not isinstance(outcome, Problem):
+                return outcome
+            self._problem = outcome
+        return None
+
+    def missing(self) -> str:
+        """What still lacks, and what was wrong last."""
+        missing = self._assembler.missing()
+        return f"{missing} ({self._problem.text})" if self._problem else missing

@@ -1,0 +1,232 @@
+"""A live node: sends what the standard asks for when it asks for it, and watches the others."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
+from typing import Any, TypeVar, overload
+
+import can
+
+from typedcan.node.answers import Collector
+from typedcan.node.cycles import Maker
+from typedcan.node.engine import Engine, Leave
+from typedcan.node.request import Pending
+from typedcan.node.running import Running
+from typedcan.supervise import State, Supervisor
+from typedcan.supervise.snapshot import Snapshot
+from typedcan.transfer.collect import Transfers
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.codec import Codec
+from typedcan.wire.errors import RequestError
+from typedcan.wire.link import Counts, Received
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
+
+EventT = TypeVar("EventT")
+AnswerT = TypeVar("AnswerT")
+
+
+class Node(Running):
+    """One node of a protocol on a bus of python-can, live.
+
+    Use it in ``with`` or ``async with``, or `start` and `stop` it: two threads then send what is
+    due and take what arrives, whatever the number of messages. Or drive it by hand, with `turn`,
+    on a clock of one's own. Leaving stops what the node started and nothing else.
+
+    Callbacks run one after another in the thread that receives; while that hangs, in the bus or in
+    a callback, what time alone changes is told by a third. The interface of the bus must let one
+    thread send while another receives, as most do; `can.ThreadSafeBus` helps those that do not.
+
+    Whatever exception a bus raises is trouble that is reported, and tried again. A node that cannot
+    go on, since a bus or a callback raised `SystemExit` for example, tells it as `NodeFailed`, ends
+    what acts and sends no more. So it does where a signal ends or stops the process, SIGTERM or
+    Ctrl-Z for example, if it was started in the main thread and the program leaves that signal
+    alone, and where the program ends without stopping it.
+
+    Parameters
+    ----------
+    protocol
+        What its nodes send and receive.
+    name
+        Which of its nodes; raises `UnknownNodeError`.
+    bus
+        Is lent: it is never closed here.
+    codec
+        For checksum algorithms of one's own.
+    clock
+        What the time is; the system's clock if none is given.
+    expect, timeout_periods, late_periods, timeouts
+        See `Supervisor`.
+    reopen
+        Opens another bus where the one at hand does not work any more. What it opened, the node
+        closes.
+    leave
+        What happens in the end where the node has commanded something that acts, such as high
+        voltage on: "safe" sends the safe codes first, as long as the bus takes them; "silent", for
+        tests of how others take it, just ends.
+    transfers
+        What puts values of several frames together, if anything is to.
+    """
+
+    def __init__(
+        self,
+        protocol: Protocol,
+        name: str,
+        bus: can.BusABC,
+        *,
+        codec: Codec | None = None,
+        clock: Clock | None = None,
+        expect: Iterable[type[Message]] | None = None,
+        timeout_periods: float = 5.0,
+        late_periods: float = 1.5,
+        timeouts: Mapping[type[Message], float] | None = None,
+        reopen: Callable[[], can.BusABC] | None = None,
+        leave: Leave = "safe",
+        transfers: Transfers | None = None,
+    ) -> None:
+        self.protocol = protocol
+        self.name = name
+        self.clock: Clock = clock or SystemClock()
+        supervisor = Supervisor(
+            protocol,
+            name,
+            expect=expect,
+            timeout_periods=timeout_periods,
+            late_periods=late_periods,
+            timeouts=timeouts,
+            # Frames have the system's time, which means nothing to any other clock.
+            timestamps=isinstance(self.clock, SystemClock),
+        )
+        self._engine = Engine(
+            protocol,
+            name,
+            bus,
+            codec=codec or Codec(protocol),
+            clock=self.clock,
+            supervisor=supervisor,
+            reopen=reopen,
+            leave=leave,
+            transfers=transfers or Transfers(protocol, {}),
+        )
+        self._outbox = self._engine.outbox
+        self._inbox = self._engine.inbox
+
+    # Sending
+
+    def set(self, *messages: Message, period: float | None = None) -> None:
+        """Send messages from now on, or other values of those that are being sent.
+
+        A message with a period, its own or ``period`` seconds, is sent cyclically; new values do
+        not disturb its rhythm. Several messages of one type are the frames of one cycle, spread
+        evenly over it; they change with the cycle. A message without a period goes out once.
+        Checksums and alive counters are filled in at each transmission. Raises `SendingError` for
+        a message that is not this node's, or once the node sends no more, and `EncodeError`; then
+        nothing is set.
+        """
+        self._outbox.set(messages, period)
+
+    def supply(self, kind: type[Message], make: Maker, *, period: float | None = None) -> None:
+        """Send a message cyclically; ``make`` is asked for the frames of each cycle anew.
+
+        It is called in the thread that sends. What it raises, or returns that cannot be sent, is
+        reported as `SendFailed`.
+        """
+        self._outbox.supply(kind, make, period)
+
+    def provide(self, *messages: Message) -> None:
+        """Have messages ready as answers.
+
+        They are sent while another node's request asks for them, with their period, or once for
+        each request where they have none.
+        """
+        self._outbox.provide(messages)
+
+    def provide_from(self, kind: type[Message], make: Maker) -> None:
+        """As `provide`, but ``make`` is asked for the frames anew each time."""
+        self._outbox.provide_from(kind, make)
+
+    def clear(self, *kinds: type[Message]) -> None:
+        """Send messages no more: neither in cycles, nor as answers, nor those still waiting."""
+        self._outbox.clear(kinds)
+
+    def send(self, message: Message) -> None:
+        """Send one frame, now; raises `SendingError`, `EncodeError` and what the bus raises."""
+        self._outbox.send(message)
+
+    def postpone(self, kind: type[Message], seconds: float) -> None:
+        """Let the next frame of a cyclic message come late; those after it keep their times."""
+        self._outbox.postpone(kind, seconds)
+
+    # Receiving
+
+    @overload
+    def on(
+        self, kind: type[Message], callback: Callable[[Received], object]
+    ) -> Callable[[], None]: ...
+    @overload
+    def on(
+        self, kind: type[EventT], callback: Callable[[EventT], object]
+    ) -> Callable[[], None]: ...
+    def on(self, kind: type[Any], callback: Callable[[Any], object]) -> Callable[[], None]:
+        """Call back with each `Received` of a message class, or with each event of a class.
+
+        Event classes are `Received`, for all messages, `Fault`, those of supervision and
+        transfers, `BusLost`, `BusBack`, `SendFailed`, `ReceiveFailed` and `NodeFailed`. Returns
+        what takes the callback off. An exception of a callback is logged, by "swapcan", and stops
+        nothing; what is no `Exception`, such as `SystemExit`, ends the node.
+        """
+        return self._engine.dispatcher.on(kind, callback)
+
+    def events(self, limit: int = 10_000) -> AsyncGenerator[Any, None]:
+        """All events from now on, for ``async for``, until the node is stopped.
+
+        At most ``limit`` wait for a slow reader; then the oldest are dropped, and an `Overrun`
+        says how many. Must be called on an event loop.
+        """
+        return self._engine.dispatcher.stream(limit)
+
+    def last(self, kind: type[Message]) -> Received | None:
+        """The message of a kind that came last, if any."""
+        return self._inbox.last(kind)
+
+    def state(self, kind: type[Message]) -> State:
+        """How regularly a message comes in."""
+        return self._inbox.state(kind)
+
+    def snapshot(self) -> Snapshot:
+        """What supervision knows at this moment."""
+        return self._inbox.snapshot(self.clock.now())
+
+    def missing(self, transfer: str) -> str:
+        """What a transfer, such as "cell_voltages", lacks to be complete; for people."""
+        return self._inbox.missing(transfer)
+
+    @property
+    def counts(self) -> Counts:
+        """How many frames came in and what became of them."""
+        return self._inbox.counts
+
+    # Requests
+
+    def request(
+        self,
+        name: str,
+        answer: type[Message],
+        collector: Collector[AnswerT],
+        timeout: float = 5.0,
+        again: float = 1.0,
+    ) -> Pending[AnswerT]:
+        """Ask for a message that answers a request of this node's; ``name`` is for people.
+
+        The request is repeated every ``again`` seconds until ``collector`` has put the answer
+        together, and withdrawn then, after ``timeout`` seconds, or when it is cancelled. Other
+        fields of the message that asks stay as they were last. Raises `RequestError` where this
+        node has no such request, or has it under way.
+        """
+        self._outbox.check_open()
+        for request in self.protocol.requests:
+            if answer in request.answers and self.name == request.field.message.SENDER:
+                return self._engine.requests.begin(
+                    name, request, collector, timeout=timeout, again=again, now=self.clock.now()
+                )
+        raise RequestError(f"{self.name} has no request for the {name}")
