@@ -77,10 +77,15 @@ class SentCommands:
         """The bus has accepted a message with its safe codes."""
         self._acting.discard(type(message))
 
+    def last(self, kind: type[Message]) -> Message | None:
+        """The last one of a message that can act."""
+        return self._last.get(kind)
+
     @property
     def acting(self) -> tuple[Message, ...]:
         """Those of which the last one acts, as far as is known."""
-        return tuple(message for kind, message in self._last.items() if kind in self._acting)
+        last = tuple(self._last.items())  # another thread may add to it
+        return tuple(message for kind, message in last if kind in self._acting)
 
     @property
     def all(self) -> tuple[Message, ...]:

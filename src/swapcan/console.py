@@ -8,7 +8,7 @@ import math
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -17,6 +17,10 @@ from swapcan.errors import SwapcanError
 
 class CommandError(SwapcanError):
     """Something that the user of the command line can mend."""
+
+
+class OutputClosedError(BrokenPipeError):
+    """Nobody reads the results any more; apart from a bus whose other end is gone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +48,7 @@ class Parser(argparse.ArgumentParser):
 def say(text: str, *, flush: bool = False) -> None:
     """Print a result.
 
-    Raises `BrokenPipeError` where nobody reads any more, and `CommandError` where the output
+    Raises `OutputClosedError` where nobody reads any more, and `CommandError` where the output
     cannot be written.
     """
     with _writing():
@@ -66,14 +70,21 @@ def _writing() -> Iterator[None]:
         # Keep the interpreter from writing the rest when it ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL is what Windows says
-            raise BrokenPipeError from None
+            raise OutputClosedError from None
         raise CommandError(f"cannot write the output: {error.strerror}") from None
 
 
 def note(text: str) -> None:
-    """Print a remark or an error, beside the results."""
+    """Print a remark or an error, beside the results; where nobody reads it that is no trouble."""
     if sys.stderr:  # else print would take stdout
-        print(f"swapcan: {text}", file=sys.stderr, flush=True)
+        with suppress(OSError, ValueError):  # a terminal that is gone, a stream that is closed
+            print(f"swapcan: {text}", file=sys.stderr, flush=True)
+
+
+def warn(text: str) -> None:
+    """Print a remark from any thread, also where another hangs in printing one."""
+    with suppress(Exception):
+        os.write(sys.stderr.fileno(), f"swapcan: {text}\n".encode())
 
 
 def aligned(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:

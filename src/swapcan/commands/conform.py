@@ -108,12 +108,11 @@ def _add_live(parser: argparse.ArgumentParser) -> None:
 def _add_driving(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group(
         "driving a pack",
-        "However it ends, by an error, Ctrl-C, Ctrl-Z or another signal, the pack is first told"
-        " to switch off, as long as the bus takes that, and a line says whether it has reported"
-        " that it did. SIGKILL, a power cut, a frozen machine and a driver that hangs cannot be"
-        " caught: then the last command holds until the pack's own timeout, which the standard"
-        " does not give."
-        " Switching high voltage off at speed opens contactors under load.",
+        "However it ends, by an error, Ctrl-C, Ctrl-Z or another signal, the pack is told first to"
+        " switch off, as long as the bus takes that, and a line says whether it has reported that"
+        " it did. What cannot be caught is SIGKILL, a crash, a power cut, a frozen machine and a"
+        " driver that hangs: then the last command holds until the pack's own timeout, which the"
+        " standard does not give. Switching high voltage off at speed opens contactors under load.",
     )
     group.add_argument(
         "--active",

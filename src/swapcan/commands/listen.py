@@ -10,7 +10,7 @@ import can
 
 from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.transcript import JSON_HELP, Transcript
-from swapcan.console import Command, count, note, seconds
+from swapcan.console import Command, OutputClosedError, count, note, seconds
 
 _WAIT = 0.5
 """Seconds in one call of the bus: some systems let Ctrl-C through only between two calls."""
@@ -29,9 +29,9 @@ def _run(options: argparse.Namespace) -> int:
         note(f"listening on {bus_name(bus, options)}, Ctrl-C ends")
         try:
             _copy(bus, transcript, options.count, time.monotonic() + options.seconds)
-        except BrokenPipeError:
+        except OutputClosedError:
             raise
-        except (KeyboardInterrupt, can.CanError, OSError):
+        except (KeyboardInterrupt, Exception):
             note(transcript.summary())
             raise
     note(transcript.summary())
