@@ -161,7 +161,7 @@ def test_what_fails_for_good_before_anything_was_sent_leaves_the_bus_untouched(
 def test_a_bus_that_works_again_within_a_second_has_not_failed_for_good() -> None:
     with bench() as rig:
         trouble = Trouble(
-            lambda: OSError("gone"), lambda _: rig.clock.now() % 1.0 < 0.8, for_good=False
+            lambda: OSError("gone"), lambda _: rig.clock.now() % 2.0 < 0.8, for_good=False
         )
 
         def again(*given: object) -> None:
