@@ -14,13 +14,14 @@ from drive.trouble import EXCEPTIONS, OTHERS, PLACES, Trouble, play
 
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.stage import Left
+from swapcan.conform.text import Text
 from swapcan.drive import driving
 from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl, ChargerOperation
 from swapcan.simulate.plan import plan_of
 
 SCENARIO = Scenario(
     name="charger",
-    title=None,  # type: ignore[arg-type]  # is only shown
+    title=Text("a charger comes and goes", "充电机接入和断开"),
     plays=("CHG",),
     plan=plan_of("charge@100ms+8s"),
     seconds=9.0,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import struct
 from collections.abc import Callable, Collection
+from dataclasses import replace
 from enum import Enum
 
 import can
@@ -13,6 +14,7 @@ from conform.live_rig import Bench
 
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.stage import Stage
+from swapcan.conform.text import Text
 from swapcan.messages import V2B_CMD, BmsState, HvCommand, RelayState
 from swapcan.simulate.plan import plan_of
 
@@ -64,13 +66,16 @@ OTHERS: tuple[Callable[[], BaseException], ...] = (
 
 SCENARIO = Scenario(
     name="on-off",
-    title=None,  # type: ignore[arg-type]  # is only shown
+    title=Text("high voltage on and off", "高压通断"),
     plays=("VCU",),
     plan=plan_of("hv_on@300ms, hv_off@2s"),
     seconds=3.5,
     rules=(),
 )
 """High voltage on and off, in less time than the one that is judged."""
+
+QUICK = replace(SCENARIO, plan=plan_of("hv_on@200ms, hv_off@1s"), seconds=1.3)
+"""The same in real time, for a pack that does at once as it is told."""
 
 
 class Phase(Enum):
