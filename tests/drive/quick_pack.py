@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import can
-from conform.live_lines import database, values
+from conform.live_lines import database
 
 from swapcan.messages import V2B_CMD, BmsState, HvCommand
 
@@ -17,6 +17,11 @@ ENOUGH = 30.0
 
 _STEP = 0.01
 _PERIOD = 0.1
+
+
+def command_in(frame: can.Message) -> HvCommand:
+    """What V2B_CMD commands: HV_OnOff is bits 4 and 5 of byte 1 (A.1)."""
+    return HvCommand(frame.data[1] >> 4 & 3)
 
 
 class QuickPack:
@@ -46,7 +51,7 @@ class QuickPack:
         """Take what has arrived, and say what is due."""
         while frame := self._bus.recv(0):
             if frame.arbitration_id == V2B_CMD.FRAME_ID:
-                self._take(HvCommand(values(frame)["V2B_CMD_HV_OnOff"]))
+                self._take(command_in(frame))
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + _PERIOD
             self._say("B2V_ST0")

@@ -43,7 +43,7 @@ def cases() -> Iterator[ParameterSet]:
 
 @pytest.mark.parametrize(("place", "phase", "error", "for_good"), tuple(cases()))
 def test_it_leaves_the_pack_open(
-    place: str, phase: Phase, error: Callable[[], BaseException], for_good: bool
+    place: str, phase: Phase, error: Callable[[], BaseException], *, for_good: bool
 ) -> None:
     with bench() as rig:
         progress = Progress(rig)

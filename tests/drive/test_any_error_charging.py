@@ -23,8 +23,8 @@ SCENARIO = Scenario(
     name="charger",
     title=Text("a charger comes and goes", "充电机接入和断开"),
     plays=("CHG",),
-    plan=plan_of("charge@100ms+8s"),
-    seconds=9.0,
+    plan=plan_of("charge@100ms+5s"),
+    seconds=5.5,
     rules=(),
 )
 LOST = 3.0
@@ -69,7 +69,7 @@ class OnTheWire:
 
 @pytest.mark.parametrize(("place", "error", "for_good"), tuple(cases()))
 def test_it_leaves_a_pack_that_does_not_charge(
-    place: str, error: Callable[[], BaseException], for_good: bool
+    place: str, error: Callable[[], BaseException], *, for_good: bool
 ) -> None:
     with bench() as rig:
         wire = OnTheWire(rig)

@@ -34,8 +34,7 @@ def _handlers_come_back() -> Iterator[None]:
 def test_a_signal_that_ends_a_process_is_noted_and_becomes_its_status(name: str) -> None:
     number = getattr(signal, name)
     with Interrupts() as interrupts:
-        assert not interrupts.is_over
-        assert interrupts.status is None
+        assert (interrupts.is_over, interrupts.status) == (False, None)
         signal.raise_signal(number)
     assert interrupts.is_over
     assert interrupts.status == 128 + number

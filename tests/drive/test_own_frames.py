@@ -101,7 +101,7 @@ def test_another_truck_is_noticed_though_it_sends_the_same_as_is_played() -> Non
                     rig.outside.send(can.Message(arbitration_id=NUMBER, data=seen[-15].data))
 
         stage = rig.stage()
-        with pytest.raises(ScenarioError, match="^another VCU is on the bus"):
+        with pytest.raises(ScenarioError, match=r"^another VCU is on the bus"):
             stage.play(SCENARIO, ["VCU"], repeat)
         assert stage.left is Left.SAFE
 

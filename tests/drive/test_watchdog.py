@@ -59,7 +59,7 @@ def test_off_is_sent_again_and_again_where_no_beat_comes_and_on_no_more(
             assert next(heard) == HvCommand.HV_ON
             assert [next(heard) for _ in range(5)] == [HvCommand.HV_OFF] * 5
             assert warned.wait(ENOUGH)
-            with pytest.raises(HungError, match="what acts was ended$"):
+            with pytest.raises(HungError, match=r"what acts was ended$"):
                 bus.send(command(HvCommand.HV_ON, 1))
             dog.beat()
             with pytest.raises(HungError):
@@ -182,9 +182,7 @@ def test_conform_in_a_recorder_or_a_driver_that_hangs_switches_off_and_ends(
     monkeypatch.setattr(can, "Bus", lambda **given: Hanging(given["channel"]))
     options = ("--active", "hv-on-off", "--yes-drive-the-bus")
     record = tmp_path / "bench.log"
-    status = cli.run(
-        ["conform", "-i", "virtual", "-c", channel, *options, "--record", str(record)]
-    )
+    status = cli.run(["conform", "-i", "virtual", "-c", channel, *options, "--record", str(record)])
     assert status == 2
     assert 0.3 < hang.hung < 3.5  # the patience, and what a pack takes to open
     errors = capfd.readouterr().err.splitlines()
@@ -197,5 +195,5 @@ def test_conform_in_a_recorder_or_a_driver_that_hangs_switches_off_and_ends(
     assert len(offs) >= 7
     assert set(offs) == {HvCommand.HV_OFF}
     with can.LogReader(record) as reader:
-        recorded = [values(f)["V2B_CMD_HV_OnOff"] for f in reader if f.arbitration_id == V2B_CMD.FRAME_ID]
-    assert recorded == sent
+        frames = [each for each in reader if each.arbitration_id == V2B_CMD.FRAME_ID]
+    assert [values(each)["V2B_CMD_HV_OnOff"] for each in frames] == sent

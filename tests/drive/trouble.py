@@ -11,6 +11,7 @@ from enum import Enum
 import can
 from conform.live_lines import values
 from conform.live_rig import Bench
+from drive.quick_pack import command_in
 
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.stage import Stage
@@ -44,23 +45,23 @@ EXCEPTIONS: tuple[Callable[[], Exception], ...] = (
     lambda: AttributeError("gone"),
     lambda: RuntimeError("gone"),
     lambda: OverflowError("gone"),
-    lambda: AssertionError(),
+    AssertionError,
     lambda: struct.error("gone"),
     lambda: UnicodeDecodeError("ascii", b"\xff", 0, 1, "gone"),
-    lambda: StopIteration(),
-    lambda: MemoryError(),
+    StopIteration,
+    MemoryError,
     lambda: RecursionError("gone"),
     lambda: DriverError("gone"),
-    lambda: UnprintableError(),
+    UnprintableError,
 )
 """What is trouble: it is reported, and the run goes on where that makes sense."""
 
 OTHERS: tuple[Callable[[], BaseException], ...] = (
-    lambda: KeyboardInterrupt(),
+    KeyboardInterrupt,
     lambda: SystemExit(0),
     lambda: SystemExit("gone"),
-    lambda: GeneratorExit(),
-    lambda: asyncio.CancelledError(),
+    GeneratorExit,
+    asyncio.CancelledError,
 )
 """What means that the program is to end."""
 
@@ -104,7 +105,7 @@ class Progress:
         while frame := self._rig.listener.recv(0):
             if frame.arbitration_id == V2B_CMD.FRAME_ID:
                 last = self._last = values(frame)
-                self.commands.append(HvCommand(last["V2B_CMD_HV_OnOff"]))
+                self.commands.append(command_in(frame))
         if coming is not None and coming.arbitration_id == V2B_CMD.FRAME_ID:
             last = values(coming)
         if last is None:
@@ -191,11 +192,9 @@ def play(
         return False
 
     with TroubledBus(rig.tester, send=at["send"], sent=at["sent"], recv=at["recv"]) as bus:
-        stage = Stage(
-            bus, clock=rig.clock, wires=(rig.wire,), is_over=is_over, watch=at["watch"]
-        )
+        stage = Stage(bus, clock=rig.clock, wires=(rig.wire,), is_over=is_over, watch=at["watch"])
         try:
             stage.play(scenario, tuple(nodes), at["note"])
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - is what the tests are about
             return stage, error
     return stage, None

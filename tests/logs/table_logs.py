@@ -21,6 +21,9 @@ from swapcan.messages import MESSAGES
 START = 1_700_000_000.0
 """When the logs begin, in seconds since 1970."""
 
+_NEEDED = {"charge_control": 1, "reqst_tms_hv_on": 1, "charger_start": 1}
+"""What has to be given where a message has it: stop and off."""
+
 
 @cache
 def own_database() -> Database:
@@ -41,6 +44,7 @@ def payload(kind: type[Message], count: int) -> bytes:
     Every seventh has what a message has where no value is given: reserved codes.
     """
     swing = 0.3 + 0.2 * math.sin(count)
+    needed: Any = {name: code for name, code in _NEEDED.items() if name in kind.FIELDS}
     values: Any = {
         part.name: part.minimum + (part.maximum - part.minimum) * swing
         for part in kind.FIELDS.values()
@@ -48,9 +52,9 @@ def payload(kind: type[Message], count: int) -> bytes:
     }
     counter = count % kind.COUNTER.modulus if kind.COUNTER else None
     try:
-        return swapcan.encode(kind(**values), counter=counter)
+        return swapcan.encode(kind(**values, **needed), counter=counter)
     except EncodeError:  # a value that would be a reserved code
-        return swapcan.encode(kind(), counter=counter)
+        return swapcan.encode(kind(**needed), counter=counter)
 
 
 def traffic(seconds: float, start: float = START) -> list[can.Message]:

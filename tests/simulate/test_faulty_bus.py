@@ -11,7 +11,15 @@ import pytest
 
 from swapcan import Link
 from swapcan.clock import SimulatedClock
-from swapcan.messages import B2V_ST1, B2V_ST2, BMS_TMS_0, BSU_BMS_0, V2B_CMD, V2B_RQData
+from swapcan.messages import (
+    B2V_ST1,
+    B2V_ST2,
+    BMS_TMS_0,
+    BSU_BMS_0,
+    V2B_CMD,
+    HvRequest,
+    V2B_RQData,
+)
 from swapcan.simulate.faulty_bus import FaultyBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.times import PlanError
@@ -119,7 +127,9 @@ def test_a_stuck_counter_stays_as_it_was_and_the_checksum_is_right(
 
 
 @pytest.mark.parametrize(
-    ("message", "byte"), [(BSU_BMS_0(), 0), (BMS_TMS_0(), 6), (V2B_CMD(), 1)], ids=str
+    ("message", "byte"),
+    [(BSU_BMS_0(), 0), (BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF), 6), (V2B_CMD(), 1)],
+    ids=str,
 )
 def test_each_message_with_a_counter_can_have_it_stuck(
     faulty: FaultyBus,

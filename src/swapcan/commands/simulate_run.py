@@ -123,8 +123,9 @@ class LivingNodes:
             try:
                 driving.live(simulation.world, self._options.seconds)
             finally:
+                lived = simulation.world.elapsed
                 self._leave(driving, simulation)
-                note(report.summary(*shared))
+                note(report.summary(lived, *shared))
 
     def _leave(self, driving: Driving, simulation: Simulation) -> None:
         if not any(bus.has_acted for bus in self._buses):
