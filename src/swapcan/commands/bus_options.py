@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from typing import Any
 
 import can
 from can.interfaces.virtual import VirtualBus
 
-from swapcan.console import CommandError
+from swapcan.console import CommandError, note
 from swapcan.errors import one_line
 
 
@@ -73,6 +74,19 @@ def is_virtual(options: argparse.Namespace) -> bool:
     except Exception:  # noqa: BLE001 - opening the bus says what is wrong
         return False
     return config.get("interface") == "virtual"
+
+
+def told_once() -> Callable[[Exception], None]:
+    """What prints the trouble that a bus has had, each but once."""
+    told: set[str] = set()
+
+    def tell(error: Exception) -> None:
+        text = one_line(error)
+        if text not in told:
+            told.add(text)
+            note(f"the bus failed for a moment: {text}")
+
+    return tell
 
 
 def bus_name(bus: can.BusABC, options: argparse.Namespace) -> str:

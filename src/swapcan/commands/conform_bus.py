@@ -14,16 +14,16 @@ from pathlib import Path
 
 import can
 
-from swapcan.commands.bus_options import bus_name, open_bus
+from swapcan.commands.bus_options import bus_name, open_bus, told_once
 from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_reports import Judged
 from swapcan.commands.driving import HUNG, LIVE
 from swapcan.conform.live.announcement import announcement
-from swapcan.conform.live.listening import listen
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
 from swapcan.console import CommandError, note, warn
+from swapcan.drive.listening import listen
 from swapcan.monitor.recording import Recording
 from swapcan.process_signals import Interrupts
 
@@ -74,6 +74,7 @@ def _heard(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> Judge
                     _noting(recording, given.channel),
                     is_over=lambda: interrupts.is_over,
                     watch=progress.update,
+                    report=told_once(),
                 )
             finally:
                 progress.clear()
