@@ -256,3 +256,19 @@ def test_what_would_act_by_omission_is_not_sent_with_a_yes_either(
     monkeypatch.setattr(can, "Bus", refuse)
     assert cli.run(["send", *message, YES, "-i", "socketcan", "-c", "can0"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["conform", "simulate", "send"])
+def test_help_and_readme_say_what_no_program_can_do_and_what_follows(
+    command: str, capsys: Capture, root: Path
+) -> None:
+    assert cli.run([command, "--help"]) == 0
+    helped = " ".join(capsys.readouterr().out.split())
+    readme = " ".join((root / "README.md").read_text("utf-8").split())
+    for text in (helped, readme):
+        assert YES in text
+        assert "own timeout, which the " in text  # the draft does not give it
+        assert "at speed opens contactors under load" in text
+        if command != "send":  # ends nothing
+            for word in ("SIGKILL", "crash", "power", "freez" if text is readme else "frozen"):
+                assert word in text
