@@ -111,8 +111,9 @@ def _add_driving(parser: argparse.ArgumentParser) -> None:
         "However it ends, by an error, Ctrl-C, Ctrl-Z or another signal, the pack is told first\n"
         "to switch off, as long as the bus takes that, and a line says whether it has reported\n"
         "that it did. What cannot be caught is SIGKILL, a crash, a power cut, a frozen machine\n"
-        "and a driver that hangs: then the last command holds until the pack's own timeout, which the\n"
-        "standard does not give. Switching high voltage off at speed opens contactors under load.",
+        "and a driver that hangs: then the last command holds until the pack's own timeout,\n"
+        "which the standard does not give. Switching high voltage off at speed opens contactors\n"
+        "under load.",
     )
     group.add_argument(
         "--active",
