@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from importlib.metadata import PackageNotFoundError, version
 
 from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
-from swapcan.console import CommandError, Parser, finish, note, say_text
+from swapcan.console import CommandError, OutputClosedError, Parser, finish, note, say_text
 from typedcan.wire.errors import one_line
 
 _COMMANDS = (
@@ -26,6 +26,9 @@ _COMMANDS = (
 )
 
 _LOG = logging.getLogger("swapcan")
+
+_SIGNALS = 128
+"""What the exit status of a command that a signal has ended is above of."""
 
 _EXAMPLES = """examples:
   swapcan demo                                        a pack and a truck on a virtual bus
@@ -52,9 +55,11 @@ def run(arguments: Sequence[str]) -> int:
     try:
         status = _dispatch(arguments)
         finish()
-    except BrokenPipeError:  # the reader went away: leave quietly
+    except OutputClosedError:  # the reader went away: leave quietly
         return 1
-    except Exception as error:  # noqa: BLE001 - what drivers and files bring about is no list
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # noqa: BLE001 - what drivers and files bring about is no list
         note(one_line(error))
         _LOG.debug("what stopped the command", exc_info=True)
         return 2
@@ -64,12 +69,17 @@ def run(arguments: Sequence[str]) -> int:
 def _dispatch(arguments: Sequence[str]) -> int:
     try:
         options = _parser().parse_args(arguments)
-        command: Callable[[argparse.Namespace], int] = options.run
+    except SystemExit:  # help or version was printed
+        return 0
+    command: Callable[[argparse.Namespace], int] = options.run
+    try:
         return command(options)
     except KeyboardInterrupt:
         return 130
-    except SystemExit as leaving:  # help or version was printed
-        return leaving.code if isinstance(leaving.code, int) else 0
+    except SystemExit as leaving:
+        if isinstance(leaving.code, int) and leaving.code > _SIGNALS:
+            return leaving.code
+        raise  # a driver's idea, not ours: the command has not done its work
 
 
 def _parser() -> Parser:

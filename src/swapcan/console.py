@@ -8,16 +8,20 @@ import math
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import NoReturn
 
 from typedcan.model.errors import TypedcanError
-from typedcan.shell.printing import print_line, print_remark, print_text
+from typedcan.shell.printing import print_line, print_remark, print_text, printable
 
 
 class CommandError(TypedcanError):
     """Something that the user of the command line can mend."""
+
+
+class OutputClosedError(BrokenPipeError):
+    """Nobody reads the results any more; apart from a bus whose other end is gone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +49,7 @@ class Parser(argparse.ArgumentParser):
 def say(text: str, *, flush: bool = False) -> None:
     """Print a line of the results.
 
-    Raises `BrokenPipeError` where nobody reads any more, and `CommandError` where the output
+    Raises `OutputClosedError` where nobody reads any more, and `CommandError` where the output
     cannot be written.
     """
     with _writing():
@@ -73,13 +77,20 @@ def _writing() -> Iterator[None]:
         # Keep the interpreter from writing the rest when it ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL is what Windows says
-            raise BrokenPipeError from None
+            raise OutputClosedError from None
         raise CommandError(f"cannot write the output: {error.strerror}") from None
 
 
 def note(text: str) -> None:
-    """Print a remark or an error, beside the results."""
-    print_remark(f"swapcan: {text}")
+    """Print a remark or an error, beside the results; where nobody reads it that is no trouble."""
+    with suppress(OSError, ValueError):  # a terminal that is gone, a stream that is closed
+        print_remark(f"swapcan: {text}")
+
+
+def warn(text: str) -> None:
+    """Print a remark from any thread, also where another hangs in printing one."""
+    with suppress(Exception):
+        os.write(sys.stderr.fileno(), f"swapcan: {printable(text)}\n".encode())
 
 
 def seconds(text: str) -> float:

@@ -22,6 +22,9 @@ from typedcan.wire.message import Message, PhysicalField
 START = 1_700_000_000.0
 """When the logs begin, in seconds since 1970."""
 
+_NEEDED = {"charge_control": 1, "reqst_tms_hv_on": 1, "charger_start": 1}
+"""What has to be given where a message has it: stop and off."""
+
 
 @cache
 def own_database() -> Database:

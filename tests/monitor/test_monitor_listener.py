@@ -31,7 +31,7 @@ def wait_for(condition: Callable[[], bool]) -> None:
 class Breakable(VirtualBus):
     """A bus that raises an error for as long as it has one."""
 
-    trouble: Exception | None = None
+    trouble: BaseException | None = None
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
         if self.trouble:
@@ -89,19 +89,32 @@ def test_a_bus_is_opened_anew_where_the_lost_one_stays_lost() -> None:
             wait_for(lambda: session.status().messages == 1)
 
 
-def test_an_error_that_nobody_foresaw_is_raised_in_the_end() -> None:
-    class DriverError(Exception):
-        """What no interface should raise."""
+class DriverError(Exception):
+    """What no interface should raise."""
 
+
+@pytest.mark.parametrize("error", [DriverError("odd"), IndexError("list index out of range")])
+def test_whatever_a_bus_raises_counts_as_lost(error: Exception) -> None:
+    channel, session = f"test-{uuid4()}", new_session()
+    with Breakable(channel) as near, can.Bus(channel, "virtual") as far, Listener(near, session):
+        near.trouble = error
+        wait_for(lambda: str(error) in session.status().bus_lost)
+        near.trouble = None
+        wait_for(lambda: session.status().bus_lost == "")
+        far.send(frame("B2V_ST2", 0))
+        wait_for(lambda: session.status().messages == 1)
+
+
+def test_what_is_no_trouble_of_a_bus_is_raised_in_the_end() -> None:
     def hear_until_it_ends() -> None:
         with (
             Breakable(f"test-{uuid4()}") as bus,
             Listener(bus, new_session()) as listener,
         ):
-            bus.trouble = DriverError()
+            bus.trouble = GeneratorExit()
             wait_for(lambda: listener.has_ended)
 
-    with pytest.raises(DriverError):
+    with pytest.raises(GeneratorExit):
         hear_until_it_ends()
 
 

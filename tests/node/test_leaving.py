@@ -118,13 +118,13 @@ def test_what_still_waits_to_go_out_once_is_not_turned_on_in_the_end(
 def test_every_message_that_acts_is_ended_with_its_own_codes(
     near: can.BusABC, far: can.BusABC
 ) -> None:
-    acting = {
+    acting: dict[type[Message], Message] = {
         B2C_Charger: B2C_Charger(charge_control=ChargeControl.START_TO_CHARGE, current_set=50.0),
         BMS_TMS_0: BMS_TMS_0(
             reqst_tms_hv_on=HvRequest.REQUEST_HV_ON, reqst_set_tms_sts=ThermalMode.COOLING
         ),
     }
-    safe = {
+    safe: dict[type[Message], dict[str, int]] = {
         B2C_Charger: {"B2V_S_ChargeControl": 1},
         BMS_TMS_0: {"BMS_ReqstTMSHVon": 1, "BMS_ReqstSetTMSts": 0},
     }

@@ -85,8 +85,9 @@ def test_send_puts_one_frame_on_the_bus_and_prints_it(
     options: list[str],
     swapcan_command: Callable[..., subprocess.CompletedProcess[str]],
 ) -> None:
-    done = swapcan_command("send", "V2B_CMD", "hv_on_off=HV Off", "vehicle_speed=42", *options)
-    assert (done.returncode, done.stderr) == (0, "")
+    message = ("V2B_CMD", "hv_on_off=HV On", "vehicle_speed=42")
+    done = swapcan_command("send", *message, *options, "--yes-drive-the-bus")
+    assert (done.returncode, done.stderr) == (0, "swapcan: looking for another VCU for 2 s\n")
     link = Link(bus)
     received = link.receive(timeout=5.0)
     assert isinstance(received.message, V2B_CMD)

@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 
 import pytest
-from defaults import default_of
 from simulate.bmu_talk import OFF, ON, Pack, number
 from simulate.outside import Outside, alone
 
@@ -17,6 +16,7 @@ from swapcan.messages import (
     TMS_BMS_0,
     B2C_Charger,
     C2B_ACStatus,
+    ChargerOperation,
     FaultFlag,
     HvRelayState,
     HvRequest,
@@ -152,7 +152,7 @@ def test_on_two_buses_each_message_is_on_the_bus_of_its_receiver() -> None:
         world = World(bmu, clock=clock, wires=[vehicle, charger])
         vcu, chg = Outside(world, vcu_bus), Outside(world, chg_bus)
         vcu.say(ON)
-        chg.say(default_of(C2B_ACStatus))
+        chg.say(C2B_ACStatus(charger_start=ChargerOperation.ON))
         vcu.run(1.0)
         chg.run(1.0)
         assert {type(message) for _, message in chg.heard} == {B2C_Charger}

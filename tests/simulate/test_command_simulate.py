@@ -15,6 +15,7 @@ from swapcan.messages import B2V_ST1, V2B_CMD, B2C_Charger, C2B_ACStatus, HvComm
 from swapcan.simulate.faults import FAULTS
 
 COMMAND = ("-m", "swapcan", "simulate")
+YES = "--yes-drive-the-bus"
 
 
 def run(*arguments: str) -> tuple[int, str, str]:
@@ -66,7 +67,7 @@ def test_a_bus_that_cannot_be_opened_is_one_line_and_status_2(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     bus = ("-i", "udp_multicast", "-c", "no address at all")
-    assert cli.run(["simulate", "BMU", *bus]) == 2
+    assert cli.run(["simulate", "TMS", *bus]) == 2
     said = capsys.readouterr()
     assert said.out == ""
     assert said.err.startswith("swapcan: cannot open the bus: ")
@@ -86,9 +87,11 @@ def test_list_faults_shows_every_fault_and_needs_no_bus(
 
 def test_all_five_talk_on_one_bus_and_it_ends_after_its_seconds() -> None:
     options = bus_options("udp_multicast")
-    status, out, errors = run(*as_arguments(options), "--seconds", "3", "--plan", "hv_on@100ms")
+    plan = ("--seconds", "3", "--plan", "hv_on@100ms")
+    status, out, errors = run(*as_arguments(options), *plan, YES)
     assert status == 0
-    first, last = errors.splitlines()
+    look_out, first, last = errors.splitlines()
+    assert look_out == "swapcan: looking for others who send what is to be sent, for 2 s"
     assert first.startswith("swapcan: simulating BMU, VCU, CHG, TMS, BSU on ")
     assert last.startswith("swapcan: simulated BMU, VCU, CHG, TMS, BSU for 3.0 s: frames sent ")
     assert last.endswith(", from others 0, faults 0 (length 0, checksum 0, counter 0)")
@@ -115,7 +118,7 @@ def test_all_five_talk_on_one_bus_and_it_ends_after_its_seconds() -> None:
 def test_faults_and_what_is_noticed_of_them_are_lines_of_json() -> None:
     options = bus_options("udp_multicast")
     status, out, _ = run(
-        *("BMU", "VCU", "--json", "--plan", "", "--seconds", "3", *as_arguments(options)),
+        *("BMU", "VCU", "--json", "--plan", "", "--seconds", "3", *as_arguments(options), YES),
         *("--fault", "VCU.bus_silence@1s+1s", "--fault", "B2V_ST1.stuck_counter@0.5s+1s"),
     )
     assert status == 0
@@ -145,7 +148,7 @@ def test_others_on_the_bus_are_heard_and_answered() -> None:
     options = bus_options("udp_multicast")
     with (
         can.Bus(ignore_config=True, **options) as bus,
-        started(*COMMAND, "BMU", *as_arguments(options)) as process,
+        started(*COMMAND, "BMU", *as_arguments(options), YES) as process,
     ):
         assert process.stdout
         link = Link(bus)
@@ -167,10 +170,12 @@ def test_pack_and_charger_can_talk_on_a_bus_of_their_own() -> None:
         can.Bus(ignore_config=True, **vehicle) as one,
         can.Bus(ignore_config=True, **other) as two,
         started(
-            *COMMAND, "BMU", "CHG", *as_arguments(vehicle), "--charger-bus", f"port={other['port']}"
+            *(*COMMAND, "BMU", "CHG", *as_arguments(vehicle), YES),
+            *("--charger-bus", f"port={other['port']}"),
         ) as process,
     ):
         assert process.stderr
+        assert "looking for others" in process.stderr.readline()
         assert "simulating" in process.stderr.readline()
         link = Link(two)
         heard = {type(link.receive(timeout=5.0).message) for _ in range(4)}

@@ -30,6 +30,9 @@ CASES = [
     # The standard does not say how these are computed, so nobody can check them.
     and not (fault == "wrong_checksum" and message.CHECKSUM and message.CHECKSUM.algorithm != "xor")
 ]
+NEEDED = ("charge_control", "reqst_tms_hv_on", "charger_start")
+"""What has to be given where a message has it; 1 is stop or off."""
+
 BEGIN, LONG = 3, 9
 """When the fault begins, and for how long it is there, in periods."""
 

@@ -14,6 +14,7 @@ from simulate.wire_log import WireLog
 
 from swapcan.messages import BmsState, ChargeState, HvCommand
 
+YES = "--yes-drive-the-bus"
 STEP = 0.02
 """Seconds between two meetings of the processes."""
 
@@ -84,13 +85,14 @@ def test_on_drive_charge_off_in_real_time(interface: str) -> None:
     log = WireLog()
     with (
         can.Bus(ignore_config=True, **options) as bus,
-        started(*command, "BMU", "CHG", *as_arguments(options)) as pack,
+        started(*command, "BMU", "CHG", *as_arguments(options), YES) as pack,
     ):
         assert pack.stderr
+        assert "looking for others" in pack.stderr.readline()
         assert "simulating BMU, CHG" in pack.stderr.readline()
         plan = "hv_on@0.2s, drive@1.5s+1s, hv_off@6s"
         with started(
-            *command, "VCU", *as_arguments(options), "--plan", plan, "--seconds", "7"
+            *command, "VCU", *as_arguments(options), "--plan", plan, "--seconds", "7", YES
         ) as truck:
             while truck.poll() is None:
                 if frame := bus.recv(0.1):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from typing import Any
 
 import can
+from can.interfaces.virtual import VirtualBus
 
-from swapcan.console import CommandError
+from swapcan.console import CommandError, note
 from typedcan.wire.errors import one_line
 
 
@@ -40,13 +42,23 @@ def add_bus_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def open_bus(options: argparse.Namespace) -> can.BusABC:
-    """The bus that the options name; raises `CommandError` where it cannot be opened."""
+def open_bus(options: argparse.Namespace, *, virtual: bool = False) -> can.BusABC:
+    """The bus that the options name; raises `CommandError` where it cannot be opened.
+
+    Parameters
+    ----------
+    virtual
+        `is_virtual` has said that it is: where it is not, nothing is opened after all.
+    """
     try:
-        return can.Bus(**_given(options))
+        bus = can.Bus(**_given(options))
     except Exception as error:  # noqa: BLE001 - interfaces raise what they like
         hint = "" if options.interface else "; --interface names one"
         raise CommandError(f"cannot open the bus: {one_line(error)}{hint}") from None
+    if virtual and not isinstance(bus, VirtualBus):
+        bus.shutdown()
+        raise CommandError("the bus is not virtual: name it with --interface")
+    return bus
 
 
 def is_virtual(options: argparse.Namespace) -> bool:
@@ -55,11 +67,26 @@ def is_virtual(options: argparse.Namespace) -> bool:
     Others may be behind every other interface: udp_multicast crosses machines, and vcan can be
     forwarded to a real bus.
     """
+    given = _given(options)
+    context = given.pop("config_context", None)
     try:
-        config = can.util.load_config(config=_given(options))
+        config = can.util.load_config(config=given, context=context)
     except Exception:  # noqa: BLE001 - opening the bus says what is wrong
         return False
     return config.get("interface") == "virtual"
+
+
+def told_once() -> Callable[[Exception], None]:
+    """What prints the trouble that a bus has had, each but once."""
+    told: set[str] = set()
+
+    def tell(error: Exception) -> None:
+        text = one_line(error)
+        if text not in told:
+            told.add(text)
+            note(f"the bus failed for a moment: {text}")
+
+    return tell
 
 
 def bus_name(bus: can.BusABC, options: argparse.Namespace) -> str:

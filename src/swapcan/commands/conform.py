@@ -108,12 +108,12 @@ def _add_live(parser: argparse.ArgumentParser) -> None:
 def _add_driving(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group(
         "driving a pack",
-        "However it ends, by an error, Ctrl-C, Ctrl-Z or another signal, the pack is first told"
-        " to switch off, as long as the bus takes that, and a line says whether it has reported"
-        " that it did. SIGKILL, a power cut, a frozen machine and a driver that hangs cannot be"
-        " caught: then the last command holds until the pack's own timeout, which the standard"
-        " does not give."
-        " Switching high voltage off at speed opens contactors under load.",
+        "However it ends, by an error, Ctrl-C, Ctrl-Z or another signal, the pack is told first\n"
+        "to switch off, as long as the bus takes that, and a line says whether it has reported\n"
+        "that it did. What cannot be caught is SIGKILL, a crash, a power cut, a frozen machine\n"
+        "and a driver that hangs: then the last command holds until the pack's own timeout,\n"
+        "which the standard does not give. Switching high voltage off at speed opens contactors\n"
+        "under load.",
     )
     group.add_argument(
         "--active",
@@ -186,7 +186,8 @@ COMMAND = Command(
   swapcan conform --list-rules --language zh
 
 exit status: 0 it conforms, 1 it does not, 2 it could not be judged, or not all of it: a log is
-damaged, a node is not there, the command could not do its work; 130 interrupted twice""",
+damaged, a node is not there, the pack did not report that it is off, the command could not do its
+work; 130 interrupted twice, 128 and its number ended by another signal""",
     add_arguments=_add_arguments,
     run=_run,
 )

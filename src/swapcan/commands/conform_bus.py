@@ -13,15 +13,16 @@ from pathlib import Path
 
 import can
 
-from swapcan.commands.bus_options import bus_name, open_bus
+from swapcan.commands.bus_options import bus_name, open_bus, told_once
 from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_reports import Judged
+from swapcan.commands.driving import HUNG, LIVE
 from swapcan.conform.live.announcement import announcement
-from swapcan.conform.live.listening import listen
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
-from swapcan.console import CommandError, note
+from swapcan.console import CommandError, note, warn
+from swapcan.drive.listening import listen
 from swapcan.monitor.recording import Recording
 from typedcan.shell.process_signals import Interrupts
 from typedcan.shell.progress import StatusLine
@@ -70,6 +71,7 @@ def _heard(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> Judge
                     _noting(recording, given.channel),
                     is_over=lambda: interrupts.is_over,
                     watch=partial(_draw, progress, recording),
+                    report=told_once(),
                 )
             finally:
                 progress.clear()
@@ -89,14 +91,15 @@ def _driven(
         if path.exists():  # better now than after the first of them
             raise CommandError(f"{path}: is there already, choose another name")
     played = 0
+    left = Left.UNTOUCHED
     with open_bus(given) as bus, Interrupts() as interrupts:
         name = _record_name(given, bus)
         for (scenario, nodes), path in zip(scenarios, paths, strict=True):
-            if interrupts.is_over:
+            if interrupts.is_over or left is Left.UNKNOWN:
                 break
             note(f"playing {scenario.name} on {name}, Ctrl-C switches off and ends")
             with _recorded(path) as recording:
-                _play(bus, interrupts, scenario, nodes, recording, given.channel)
+                left = _play(bus, interrupts, scenario, nodes, recording, given.channel)
             interrupts.stop_if_asked()  # nothing acts any more
             played += 1
     interrupts.go_on()
@@ -104,10 +107,11 @@ def _driven(
         _judged(given, choice, path, name, scenario)
         for (scenario, _), path in zip(scenarios[:played], paths, strict=False)
     ]
-    if interrupts.is_over and judged:
-        left = ", ".join(scenario.name for scenario, _ in scenarios[played:])
-        cut = f"it was ended early; not played: {left}" if left else "it was ended early"
-        judged[-1] = replace(judged[-1], cut=cut)
+    cut = left.value if left is Left.UNKNOWN else ""
+    cut = "it was ended early" if interrupts.is_over else cut
+    if cut and judged:
+        rest = ", ".join(scenario.name for scenario, _ in scenarios[played:])
+        judged[-1] = replace(judged[-1], cut=f"{cut}; not played: {rest}" if rest else cut)
     return judged
 
 
@@ -118,22 +122,24 @@ def _play(
     nodes: tuple[str, ...],
     recording: Recording,
     channel: str | None,
-) -> None:
+) -> Left:
     progress = StatusLine()
-    watch = partial(_draw, progress, recording)
-    stage = Stage(bus, is_over=lambda: interrupts.is_over, watch=watch)
-    interrupts.at_once = stage.send_safe_codes
+    stage = Stage(
+        bus,
+        is_over=lambda: interrupts.is_over,
+        watch=partial(_draw, progress, recording),
+        warn=lambda: warn(HUNG),
+    )
+    interrupts.at_once, interrupts.hangs = stage.send_safe_codes, lambda: stage.hangs
     try:
         stage.play(scenario, nodes, _noting(recording, channel))
     finally:
         progress.clear()
         if stage.left is Left.UNKNOWN:
-            note(
-                f"{scenario.name}: {stage.left.value} within {LEAVING:g} s:"
-                " TAKE IT FOR LIVE, switch it off by other means"
-            )
+            note(f"{scenario.name}: {stage.left.value} within {LEAVING:g} s: {LIVE}")
         elif stage.left is Left.SAFE:
             note(f"{scenario.name}: {stage.left.value}")
+    return stage.left
 
 
 def _judged(

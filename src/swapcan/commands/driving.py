@@ -1,4 +1,4 @@
-"""Consent to what moves contactors: what a command would send, and whether it may."""
+"""Consent to what moves contactors: who would send codes that act, and whether they may."""
 
 from __future__ import annotations
 
@@ -7,38 +7,28 @@ from collections.abc import Iterable
 
 from swapcan._generated.protocol import PROTOCOL
 from typedcan.wire.acting import acting_fields
-from typedcan.wire.message import Field, Message
+
+LIVE = "TAKE IT FOR LIVE, switch it off by other means"
+"""What is said where it is not known that all is off."""
+
+HUNG = "the program stands still: what acts was ended; Ctrl-C, or else kill -9, ends the program"
+"""What is said where a driver, a recorder or an output does not come back."""
 
 
-def add_consent(group: argparse._ActionsContainer, what: str) -> None:
+def add_consent(group: argparse._ActionsContainer, text: str) -> None:
     """Add the option without which nothing that acts is sent on a real interface."""
-    group.add_argument(
-        "--yes-drive-the-bus",
-        action="store_true",
-        help=f"really send {what}; contactors may close, and chargers start",
-    )
-
-
-def acting_messages(node: str) -> tuple[type[Message], ...]:
-    """The messages of a node that have codes that act."""
-    return tuple(kind for kind in PROTOCOL.sent_by(node) if acting_fields(kind))
+    group.add_argument("--yes-drive-the-bus", action="store_true", help=text)
 
 
 def acting_nodes(names: Iterable[str]) -> tuple[str, ...]:
     """Those of some nodes that send codes that act."""
-    return tuple(name for name in names if acting_messages(name))
+    return tuple(name for name in names if _acting_messages(name))
 
 
-def what_they_send(names: Iterable[str]) -> str:
-    """The codes that act of some nodes, in a line for people."""
-    return ", ".join(
-        f"{kind.NAME} {field.dbc_name} = {_labels(field)}"
-        for name in names
-        for kind in acting_messages(name)
-        for field in acting_fields(kind)
-    )
+def who_acts(names: Iterable[str]) -> str:
+    """Some nodes with their messages that act, for people."""
+    return " and ".join(f"{name} ({', '.join(_acting_messages(name))})" for name in names)
 
 
-def _labels(field: Field) -> str:
-    codes = sorted(field.acting.codes) if field.acting else []
-    return " or ".join(field.labels.get(code, str(code)) for code in codes)
+def _acting_messages(node: str) -> tuple[str, ...]:
+    return tuple(kind.NAME for kind in PROTOCOL.sent_by(node) if acting_fields(kind))

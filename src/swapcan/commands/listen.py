@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
-import time
 
-import can
-
-from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
+from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
 from swapcan.commands.transcript import JSON_HELP, Transcript
-from swapcan.console import Command, count, note, seconds
-
-_WAIT = 0.5
-"""Seconds in one call of the bus: some systems let Ctrl-C through only between two calls."""
+from swapcan.console import Command, OutputClosedError, count, note, seconds
+from swapcan.drive.listening import listen
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,22 +23,20 @@ def _run(options: argparse.Namespace) -> int:
     with open_bus(options) as bus:
         note(f"listening on {bus_name(bus, options)}, Ctrl-C ends")
         try:
-            _copy(bus, transcript, options.count, time.monotonic() + options.seconds)
-        except BrokenPipeError:
+            listen(
+                bus,
+                options.seconds,
+                transcript.show,
+                is_over=lambda: transcript.messages >= options.count,
+                report=told_once(),
+            )
+        except OutputClosedError:
             raise
-        except (KeyboardInterrupt, can.CanError, OSError):
+        except (KeyboardInterrupt, Exception):
             note(transcript.summary())
             raise
     note(transcript.summary())
     return 0
-
-
-def _copy(bus: can.BusABC, transcript: Transcript, count: float, deadline: float) -> None:
-    """Show frames until there were enough messages, or it is time."""
-    while transcript.messages < count and (left := deadline - time.monotonic()) > 0:
-        frame = bus.recv(min(left, _WAIT))
-        if frame:
-            transcript.show(frame)
 
 
 COMMAND = Command(

@@ -27,7 +27,11 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FIELD=VALUE",
         help="field or DBC signal; a number, label, character, 'invalid' or 'abnormal'",
     )
-    add_consent(parser, "a code that makes its receiver act, on anything but the virtual interface")
+    add_consent(
+        parser,
+        "send it also where it makes its receiver act: contactors close, chargers start; not needed"
+        " on the virtual interface",
+    )
     add_bus_options(parser)
 
 
@@ -35,13 +39,14 @@ def _run(options: argparse.Namespace) -> int:
     message = message_of(message_named(options.message), options.fields)
     encode(message)  # refuses a wrong value before a bus is opened
     acting = what_acts(message)
-    looks_out = bool(acting) and not is_virtual(options)
+    virtual = bool(acting) and is_virtual(options)
+    looks_out = bool(acting) and not virtual
     if looks_out and not options.yes_drive_the_bus:
         raise CommandError(
-            f"{message.NAME} {', '.join(acting)} makes its receiver act: nothing was sent;"
-            " --yes-drive-the-bus sends it"
+            f"{message.NAME} {', '.join(acting)} makes its receiver act:"
+            " not sent without --yes-drive-the-bus"
         )
-    with open_bus(options) as bus:
+    with open_bus(options, virtual=virtual) as bus:
         if looks_out:
             note(f"looking for another {message.SENDER} for {LOOK_OUT:g} s")
             with NotingBus(bus, lambda _: None, played=[message.FRAME_ID]) as noting:
@@ -62,8 +67,9 @@ COMMAND = Command(
   swapcan send V2B_CMD hv_on_off=hv_on -i socketcan -c can0 --yes-drive-the-bus
 
 A code that closes contactors, charges, heats, cools or pumps is not sent without the last option,
-and not where somebody else sends that message. Nothing ends it here: that is left to its receiver's
-timeout, or to the next message.""",
+and not where somebody else sends that message within two seconds. Nothing ends it here: it holds
+until its receiver's own timeout, which the standard does not give, or the next message. Switching
+high voltage off at speed opens contactors under load.""",
     add_arguments=_add_arguments,
     run=_run,
 )

@@ -55,8 +55,8 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object a line")
     add_consent(
         parser,
-        "what VCU and BMU command (high voltage on, charging, cooling) on anything but the virtual"
-        " interface; without it they are left out",
+        "really be VCU and BMU on a bus where somebody may obey: high voltage comes on, chargers"
+        " and cooling start; without it they are left out, save on the virtual interface",
     )
     add_bus_options(parser)
     parser.add_argument(
@@ -88,21 +88,20 @@ def _run(options: argparse.Namespace) -> int:
         _list_faults()
         return 0
     names = tuple(options.nodes) or PROTOCOL.nodes
-    plan = _default_plan(names) if options.plan is None else options.plan
-    check(names, plan, options.faults)
+    check(names, options.plan or (), options.faults)
     named = [options, *([_charger_options(options)] if options.charger_bus else [])]
     virtual = all(map(is_virtual, named))
-    allowed = allowed_nodes(options, names, virtual=virtual)
-    if options.plan is None:
-        plan = _default_plan(allowed)
-    check(allowed, plan, options.faults)
+    if not virtual and not options.yes_drive_the_bus:
+        names = allowed_nodes(names, options.plan or (), options.faults)
+    plan = _default_plan(names) if options.plan is None else options.plan
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
-        buses = [stack.enter_context(open_bus(each)) for each in named]
+        buses = [stack.enter_context(open_bus(each, virtual=virtual)) for each in named]
         name = bus_name(buses[0], options)
-        LivingNodes(options, allowed, plan, buses, name, virtual=virtual).live(interrupts)
+        nodes = LivingNodes(options, names, plan, buses, name, virtual=virtual)
+        nodes.live(interrupts)
     interrupts.stop_if_asked()
-    return interrupts.status or 0
+    return interrupts.status or (0 if nodes.is_safe else 2)
 
 
 def _assignment(text: str) -> tuple[str, str]:
@@ -139,11 +138,15 @@ COMMAND = Command(
   swapcan simulate BMU -i pcan -c PCAN_USBBUS1 --fault over_temperature@30s --yes-drive-the-bus
   swapcan simulate --list-faults
 
-VCU and BMU look for two seconds whether somebody else sends their messages, and end where
-somebody does. However they end, by an error, Ctrl-C, Ctrl-Z or another signal, they first send the
-safe codes of what they have commanded, as long as the bus takes them. What cannot be caught is
-SIGKILL, a power cut, a frozen machine and a driver that hangs: then a command holds until its
-receiver's own timeout. Switching high voltage off at speed opens contactors under load.""",
+VCU and BMU, which make others act, first look for two seconds whether somebody else sends their
+messages, and end where somebody does, then or later. However it ends, by an error, Ctrl-C, Ctrl-Z
+or another signal, the safe codes of what they have commanded are sent first, as long as the bus
+takes them. What cannot be caught is SIGKILL, a crash, a power cut, a frozen machine and a driver
+that hangs: then what is commanded holds until its receiver's own timeout, which the standard does
+not give. Switching high voltage off at speed opens contactors under load.
+
+exit status: 0 the time was over, 2 it could not go on, or was not left safe, 128 and its number
+where a signal has ended it""",
     add_arguments=_add_arguments,
     run=_run,
 )

@@ -9,11 +9,12 @@ from contextlib import ExitStack
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.commands.driving import acting_nodes, what_they_send
+from swapcan.commands.driving import HUNG, LIVE, acting_nodes, who_acts
 from swapcan.commands.simulation_report import SimulationReport
-from swapcan.console import CommandError, note
+from swapcan.console import CommandError, note, warn
 from swapcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
@@ -22,20 +23,27 @@ from typedcan.wire.clock import SystemClock
 
 
 def allowed_nodes(
-    options: argparse.Namespace, names: tuple[str, ...], *, virtual: bool
+    names: tuple[str, ...], plan: Sequence[PlannedStep], faults: Sequence[PlannedFault]
 ) -> tuple[str, ...]:
-    """Those of some nodes that may live on the buses; raises `CommandError` where none may.
+    """Those of some nodes that may live on a real bus without consent: none that acts.
 
-    Those that send codes that act need consent, unless the buses are ``virtual``.
+    Says which are left out; raises `CommandError` where none is left, or the plan or a fault is
+    for one that is not.
     """
     acting = acting_nodes(names)
-    if not acting or virtual or options.yes_drive_the_bus:
-        return names
-    said = f"{' and '.join(acting)} would command what acts ({what_they_send(acting)})"
     rest = tuple(name for name in names if name not in acting)
-    if not rest:
-        raise CommandError(f"{said}: nothing is simulated without --yes-drive-the-bus")
-    note(f"{said}: left out without --yes-drive-the-bus")
+    without = "without --yes-drive-the-bus"
+    if acting and not rest:
+        raise CommandError(f"{who_acts(acting)} would make others act: not simulated {without}")
+    for step in plan:
+        if step.node in acting:
+            raise CommandError(f"{step}: it is for {step.node}, which is not simulated {without}")
+    for fault in faults:
+        if not set(fault.nodes) & set(rest):
+            able = ", ".join(node for node in fault.nodes if node in acting)
+            raise CommandError(f"{fault}: it is for {able}, which is not simulated {without}")
+    if acting:
+        note(f"{who_acts(acting)} would make others act: left out {without}")
     return rest
 
 
@@ -66,21 +74,34 @@ class LivingNodes:
         self._names = names
         self._plan = plan
         self._name = name
-        played = [kind.FRAME_ID for node in names for kind in PROTOCOL.sent_by(node)]
+        self._lent = buses
         self._looks_out = bool(acting_nodes(names)) and not virtual
-        self._buses = [
-            NotingBus(bus, _ignore, played=played if self._looks_out else ()) for bus in buses
-        ]
+        self._buses: list[NotingBus] = []
+        self.is_safe = True
+        """Whether all that was commanded was ended, as far as is known."""
 
     def live(self, interrupts: Interrupts) -> None:
         """Look out for others where something acts, let them live, and leave the buses safe."""
-        interrupts.at_once = self._end_what_acts
-        driving = Driving(self._buses, clock=SystemClock(), is_over=lambda: interrupts.is_over)
-        if self._looks_out:
-            note(f"looking for others who send what is to be sent, for {LOOK_OUT:g} s")
-            driving.look_out()
-        if not interrupts.is_over:
-            self._live(driving)
+        played = [kind.FRAME_ID for node in self._names for kind in PROTOCOL.sent_by(node)]
+        with ExitStack() as stack:
+            self._buses = [
+                stack.enter_context(
+                    NotingBus(bus, _ignore, played=played if self._looks_out else ())
+                )
+                for bus in self._lent
+            ]
+            driving = Driving(
+                self._buses,
+                clock=SystemClock(),
+                is_over=lambda: interrupts.is_over,
+                warn=lambda: warn(HUNG),
+            )
+            interrupts.at_once, interrupts.hangs = self._end_what_acts, lambda: driving.hangs
+            if self._looks_out:
+                note(f"looking for others who send what is to be sent, for {LOOK_OUT:g} s")
+                driving.look_out()
+            if not interrupts.is_over:
+                self._live(driving)
         if driving.interrupted:
             raise driving.interrupted
 
@@ -102,22 +123,23 @@ class LivingNodes:
             try:
                 driving.live(simulation.world, self._options.seconds)
             finally:
+                lived = simulation.world.elapsed
                 self._leave(driving, simulation)
-                note(report.summary(*shared))
+                note(report.summary(lived, *shared))
 
     def _leave(self, driving: Driving, simulation: Simulation) -> None:
         if not any(bus.has_acted for bus in self._buses):
             return
-        acting = [message.NAME for bus in self._buses for message in bus.acting]
-        left = driving.leave(simulation)
+        left = driving.leave(simulation, self._options.faults)
         still = [message.NAME for bus in self._buses for message in bus.acting]
-        if still or (left is Left.UNKNOWN and acting):
-            problem = (
-                f"the safe codes of {', '.join(still)} could not be sent"
-                if still
-                else f"nobody has reported within {LEAVING:g} s that it is off"
-            )
-            note(f"{problem}: TAKE IT FOR LIVE, switch it off by other means")
+        if still:
+            problem = f"the safe codes of {', '.join(still)} could not be sent"
+        elif left is Left.UNKNOWN:
+            problem = f"nobody has reported within {LEAVING:g} s that it is off"
+        else:
+            return
+        self.is_safe = False
+        note(f"{problem}: {LIVE}")
 
     def _end_what_acts(self) -> None:
         for bus in self._buses:

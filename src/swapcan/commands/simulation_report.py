@@ -77,7 +77,7 @@ class SimulationReport:
                 self._listen(name, node)
         simulation.world.after_each_step(self._look)
 
-    def summary(self, *buses: SharedBus) -> str:
+    def summary(self, seconds: float, *buses: SharedBus) -> str:
         """How long it was, how many frames there were, and what was wrong with them."""
         participants = self._simulation.participants
         counts = [node.counts for each in participants.values() for node in each.nodes]
@@ -88,7 +88,7 @@ class SimulationReport:
             for kind in ("length", "checksum", "counter")
         )
         return (
-            f"simulated {', '.join(participants)} for {self._simulation.world.elapsed:.1f} s:"
+            f"simulated {', '.join(participants)} for {seconds:.1f} s:"
             f" frames sent {sent}, from others {received}, faults {length + checksum + counter}"
             f" (length {length}, checksum {checksum}, counter {counter})"
         )

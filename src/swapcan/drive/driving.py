@@ -2,13 +2,14 @@
 
 However that ends, by an exception of any part or by a signal, the safe codes of what acts are
 sent first, without receiving or recording before. What no program can do is to send where its
-process is killed (SIGKILL), the machine stops or the driver hangs: then what is commanded holds
-until the timeout of who receives it.
+process is killed (SIGKILL) or crashes, the machine stops or the driver hangs: then what is
+commanded holds until the timeout of who receives it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from enum import Enum
 from functools import partial
 
@@ -16,25 +17,15 @@ import can
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.drive.reports import are_off, forget_charging
 from swapcan.drive.watchdog import Watchdog
-from swapcan.messages import (
-    B2V_ST1,
-    B2C_Charger,
-    BmsState,
-    C2B_ACStatus,
-    ChargeControl,
-    ChargerOperation,
-)
 from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
 from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.world import World
-from swapcan.wire import Codec
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.clock import Clock
-from typedcan.wire.errors import DecodeError, UnknownFrameError
-from typedcan.wire.message import MessageT
 
 LOOK_OUT = 2.0
 """Seconds in which nobody else may send what is to be sent: twice the longest period."""
@@ -53,6 +44,9 @@ _MOMENT = 1e-6
 
 _TROUBLE = 1.0
 """Seconds for which a bus may refuse to work before driving is given up."""
+
+_ATTEMPTS = 100
+"""How often leaving begins anew where something breaks into it."""
 
 
 class BusyBusError(TypedcanError):
@@ -88,8 +82,10 @@ class Driving:
         Is asked again and again whether to end before the time.
     watch
         Is told how many seconds have passed, and of how many.
+    warn
+        Is told, in a thread of its own, that the program hangs and what acts was ended.
 
-    ``interrupted`` is what ended the leaving, such as `KeyboardInterrupt`, if it was that.
+    ``interrupted`` is what broke into the leaving, such as `KeyboardInterrupt`, if anything did.
     """
 
     def __init__(
@@ -100,14 +96,20 @@ class Driving:
         wires: tuple[SimulatedWire, ...] = (),
         is_over: Callable[[], bool] = lambda: False,
         watch: Callable[[float, float], object] = lambda _passed, _all: None,
+        warn: Callable[[], object] = lambda: None,
     ) -> None:
         self._buses = buses
         self._clock = clock
         self._wires = wires
         self._is_over = is_over
         self._watch = watch
-        self._watchdog = Watchdog(buses, clock)
+        self._watchdog = Watchdog(buses, clock, warn)
         self.interrupted: BaseException | None = None
+
+    @property
+    def hangs(self) -> bool:
+        """Whether nothing has gone on for too long."""
+        return self._watchdog.is_late
 
     def look_out(self, seconds: float | None = None) -> None:
         """See that nobody else sends what is to be sent; raises `BusyBusError`, and as `live`."""
@@ -116,14 +118,13 @@ class Driving:
     def live(self, world: World, seconds: float) -> None:
         """Let time pass, unless it is to end, or cannot go on.
 
-        Raises `BusyBusError`, what a bus has raised for a second, what a recorder has raised, and
-        what the world raises.
+        Raises `BusyBusError`, `HungError`, what a bus has raised for a second, what a recorder has
+        raised, and what the world and the callbacks raise.
         """
         with self._watchdog:
             while (left := seconds - world.elapsed) > _MOMENT and not self._is_over():
                 world.run(min(left, _SLICE))
-                if self._watchdog.has_barked:
-                    raise TypedcanError("the program hung: what acts was ended, nothing goes on")
+                self._watchdog.check()
                 self._watchdog.beat()
                 self._watch(world.elapsed, seconds)
                 for bus in self._buses:
@@ -132,34 +133,61 @@ class Driving:
     def leave(self, simulation: Simulation, faults: Iterable[PlannedFault] = ()) -> Left:
         """Send the safe codes, and go on until those who act report that they are off.
 
-        Nothing cuts that short: neither an exception of any kind nor ``is_over``.
+        Nothing cuts that short: neither an exception of any kind nor ``is_over``. No code that
+        acts is sent any more, whatever the nodes want.
         """
-        with self._watchdog:
-            self._send_safe_codes(simulation, faults)
-            self._try(lambda: _forget_and_stop(simulation, self._buses))
-            # The BMU would command again what its state asks for; the others have been told.
-            others = [each for name, each in simulation.participants.items() if name != "BMU"]
-            # What is still planned is for the other world.
-            world = World(*others, clock=self._clock, wires=self._wires)
-            begin = self._clock.now()
-            while (passed := self._clock.now() - begin) < LEAVING - _MOMENT:
-                self._let_pass(world)
-                self._watchdog.beat()
-                if any(bus.acting for bus in self._buses):
-                    self._send_safe_codes(simulation, ())
-                elif simulation.bmu and passed < _LEAVING_AT_LEAST:
-                    self._send_those_of(simulation.bmu)
-                if passed + _SLICE >= _LEAVING_AT_LEAST and self._are_off(simulation):
-                    return Left.SAFE
+        begin = self._clock.now()
+        for _ in range(_ATTEMPTS):
+            try:
+                with self._watchdog:
+                    return self._leave(simulation, faults, begin)
+            except BaseException as error:  # noqa: BLE001 - is raised once all is off
+                self.interrupted = self.interrupted or error
         return Left.UNKNOWN
+
+    def _leave(self, simulation: Simulation, faults: Iterable[PlannedFault], begin: float) -> Left:
+        for bus in self._buses:
+            bus.has_ended = True
+        self._send_safe_codes(simulation, faults)
+        self._try(lambda: forget_charging(simulation, self._buses))
+        if simulation.vcu:
+            self._try(simulation.vcu.withdraw)
+        # The BMU would command again what its state asks for; the others have been told.
+        others = [each for name, each in simulation.participants.items() if name != "BMU"]
+        # What is still planned is for the other world.
+        world = World(*others, clock=self._clock, wires=self._wires)
+        while (passed := self._clock.now() - begin) < LEAVING - _MOMENT:
+            lives = self._let_pass(world)
+            self._watchdog.beat()
+            if self._acts or (passed < _LEAVING_AT_LEAST and not lives):
+                self._send_safe_codes(simulation, ())
+            elif simulation.bmu and passed < _LEAVING_AT_LEAST:
+                self._send_those_of(simulation.bmu)
+            if passed + _SLICE >= _LEAVING_AT_LEAST and self._are_off(simulation):
+                return Left.SAFE
+        return Left.UNKNOWN
+
+    @property
+    def _acts(self) -> bool:
+        return any(bus.acting for bus in self._buses)
+
+    def _are_off(self, simulation: Simulation) -> bool:
+        """Whether those who were commanded say that they are off, and nothing acts any more."""
+        return not self._acts and are_off(simulation.participants, self._buses)
 
     def _check(self, bus: NotingBus) -> None:
         if bus.intruder:
             raise BusyBusError(bus.intruder)
         if bus.failure:
             raise bus.failure
-        if bus.trouble and self._clock.now() - bus.trouble[0] >= _TROUBLE:
-            raise bus.trouble[1]
+        if self._is_lost(bus):
+            with suppress(Exception):  # nodes try less often: it may be back
+                bus.recv(0)
+            if bus.trouble and self._is_lost(bus):
+                raise bus.trouble[1]
+
+    def _is_lost(self, bus: NotingBus) -> bool:
+        return bus.trouble is not None and self._clock.now() - bus.trouble[0] >= _TROUBLE
 
     def _hearing(self) -> World:
         """A world in which the buses are heard, and nobody lives."""
@@ -167,8 +195,9 @@ class Driving:
 
         def hear() -> None:
             for bus in self._buses:
-                while bus.recv(0):
-                    pass
+                with suppress(Exception):  # the bus keeps it as its trouble
+                    while bus.recv(0):
+                        pass
 
         world.after_each_step(hear)
         return world
@@ -181,77 +210,32 @@ class Driving:
             self._send_those_of(participant)
         for bus in self._buses:
             if bus.acting:
-                self._try(bus.send_safe_codes)
+                self._note(bus.send_safe_codes())
 
     def _send_those_of(self, participant: Participant) -> None:
         for node in participant.nodes:
             self._try(node.send_safe_codes)
 
-    def _let_pass(self, world: World) -> None:
-        """Let a slice of time pass, whatever is wrong with those who live in it."""
+    def _let_pass(self, world: World) -> bool:
+        """Let a slice of time pass; False where something is wrong with those who live in it."""
         begin = self._clock.now()
-        self._try(lambda: world.run(_SLICE))
-        left = begin + _SLICE - self._clock.now()
-        if left > _MOMENT:
-            self._try(lambda: self._hearing().run(left))
+        lives = self._try(lambda: world.run(_SLICE))
+        for other in (self._hearing(), World(clock=self._clock, wires=self._wires)):
             left = begin + _SLICE - self._clock.now()
-        if left > _MOMENT:
-            self._try(lambda: World(clock=self._clock, wires=self._wires).run(left))
+            if left > _MOMENT:
+                self._try(partial(other.run, left))
+        return lives
 
-    def _try(self, action: Callable[[], object]) -> None:
+    def _try(self, action: Callable[[], object]) -> bool:
+        """Do something, whatever comes of it; False where it raises."""
         try:
             action()
-        except Exception:  # noqa: BLE001 - what is left to do does not depend on it
-            pass
-        except BaseException as error:  # noqa: BLE001 - is raised once all is off
+        except BaseException as error:  # noqa: BLE001 - what is left to do does not depend on it
+            self._note(error)
+            return False
+        return True
+
+    def _note(self, error: BaseException | None) -> None:
+        """Keep what is raised once all is off: what is no Exception was meant to end more."""
+        if error and not isinstance(error, Exception):
             self.interrupted = self.interrupted or error
-
-    def _are_off(self, simulation: Simulation) -> bool:
-        """Whether those who were commanded say that they are off, and nothing acts any more."""
-        if any(bus.acting for bus in self._buses):
-            return False
-        there = simulation.participants
-        status, wanted = self._last(B2V_ST1), self._last(B2C_Charger)
-        charger = self._last(C2B_ACStatus)
-        if (
-            "VCU" in there
-            and "BMU" not in there
-            and not (status and status.bms == BmsState.HV_OPEN)
-        ):
-            return False
-        if (
-            "CHG" in there
-            and "BMU" not in there
-            and not (wanted and wanted.charge_control != ChargeControl.START_TO_CHARGE)
-        ):
-            return False
-        return not (
-            "BMU" in there
-            and "CHG" not in there
-            and charger
-            and charger.charger_start == ChargerOperation.ON
-        )
-
-    def _last(self, kind: type[MessageT]) -> MessageT | None:
-        """What others sent last of a message, since the last code that acts."""
-        for bus in self._buses:
-            frame = bus.latest.get(kind.FRAME_ID)
-            try:
-                message = Codec().decode_frame(frame) if frame else None
-            except (DecodeError, UnknownFrameError):
-                continue
-            if isinstance(message, kind):
-                return message
-        return None
-
-
-def _forget_and_stop(simulation: Simulation, buses: Sequence[NotingBus]) -> None:
-    """Let the nodes want nothing any more; what was said before counts no more as a proof."""
-    vcu, chg = simulation.vcu, simulation.chg
-    # One that was told to switch off earlier, and said that it did, may be asleep by now (5.2.1.4).
-    if chg and chg.connected:
-        for bus in buses:
-            bus.latest.pop(B2C_Charger.FRAME_ID, None)
-        chg.disconnect()
-    if vcu:
-        vcu.withdraw()

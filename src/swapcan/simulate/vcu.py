@@ -137,10 +137,10 @@ class Vcu(Participant):
 
     def withdraw(self) -> None:
         """Command high voltage off at once, whatever the speed, and ask for nothing more."""
+        self._off()
         for pending in (self.pack_code, self.battery_info):
             if pending:
                 pending.cancel()
-        self._off()
 
     def ask(self) -> None:
         """Ask the BMU for pack code and basic data: see `pack_code` and `battery_info`.

@@ -110,11 +110,14 @@ class Interrupts:
     A signal that is ignored stays ignored, as with nohup; outside of the main thread nothing is
     changed.
 
-    ``at_once`` is done before a signal stops the process that cannot wait for its end.
+    ``at_once`` is done before a signal stops the process that cannot wait for its end. While
+    ``hangs`` says that the program hangs, a signal that ends it breaks into what it hangs in, by
+    `KeyboardInterrupt` or `SystemExit`.
     """
 
     def __init__(self) -> None:
         self.at_once: Callable[[], object] = lambda: None
+        self.hangs: Callable[[], bool] = lambda: False
         self._typed = 0
         self._ending: int | None = None
         self._stopping: int | None = None
@@ -170,6 +173,8 @@ class Interrupts:
         """Take notice of a signal; what is set as its handler."""
         if number == signal.SIGINT:
             self._typed += 1
+            if self.hangs():
+                raise KeyboardInterrupt
         elif _is_one_of(number, _TYPED_STOP):
             self._stopping = number
         elif _is_one_of(number, _TERMINAL_STOP):
@@ -181,6 +186,8 @@ class Interrupts:
             _let_it(number, self.note)
         else:
             self._ending = number
+            if self.hangs():
+                raise SystemExit(128 + number)
 
 
 class Speaker(Protocol):

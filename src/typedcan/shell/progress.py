@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TextIO
 
 from typedcan.shell.printing import printable
@@ -42,6 +43,7 @@ class StatusLine:
             self._put("")
 
     def _put(self, text: str) -> None:
-        self._stream.write("\r" + text.ljust(self._drawn))
-        self._stream.flush()
+        with suppress(OSError):  # the terminal may be gone
+            self._stream.write("\r" + text.ljust(self._drawn))
+            self._stream.flush()
         self._drawn = len(text)

@@ -83,6 +83,10 @@ class SentCommands:
         """The bus has accepted a message with its safe codes."""
         self._acting.discard(type(message))
 
+    def last(self, kind: type[Message]) -> Message | None:
+        """The last one of a message that can act."""
+        return self._last.get(kind)
+
     @property
     def acting(self) -> tuple[Message, ...]:
         """Those of which the last one acts, as far as is known."""

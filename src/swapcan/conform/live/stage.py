@@ -38,6 +38,8 @@ class Stage:
         Is asked again and again whether a scenario is to end before its time.
     watch
         Is told how many seconds have passed, and of how many.
+    warn
+        Is told, in a thread of its own, that the program hangs and the pack was told to switch off.
 
     ``left`` is how the scenario that was played last has left the pack.
     """
@@ -50,13 +52,16 @@ class Stage:
         wires: tuple[SimulatedWire, ...] = (),
         is_over: Callable[[], bool] = lambda: False,
         watch: Callable[[float, float], object] = lambda _passed, _all: None,
+        warn: Callable[[], object] = lambda: None,
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
         self._wires = wires
         self._is_over = is_over
         self._watch = watch
+        self._warn = warn
         self._driven: NotingBus | None = None
+        self._driving: Driving | None = None
         self.left = Left.UNTOUCHED
 
     def play(self, scenario: Scenario, nodes: Sequence[str], note: Note) -> None:
@@ -75,19 +80,22 @@ class Stage:
         ------
         ScenarioError
             Somebody else sends what is to be played.
-        Exception
-            What a bus has raised for a second, and what ``note`` and ``watch`` raise.
+        HungError
+            The program stood still while something acted.
+        BaseException
+            What a bus has raised for a second, and what ``note``, ``watch`` and ``is_over`` raise.
         """
         self.left = Left.UNTOUCHED
         played = [kind.FRAME_ID for node in nodes for kind in PROTOCOL.sent_by(node)]
         with NotingBus(self._bus, note, clock=self._clock, played=played) as bus:
             self._driven = bus
-            driving = Driving(
+            self._driving = driving = Driving(
                 [bus],
                 clock=self._clock,
                 wires=self._wires,
                 is_over=self._is_over,
                 watch=self._watch,
+                warn=self._warn,
             )
             try:
                 self._play(driving, scenario, nodes, bus)
@@ -98,9 +106,14 @@ class Stage:
         if bus.failure:
             raise bus.failure
 
+    @property
+    def hangs(self) -> bool:
+        """Whether nothing has gone on for too long."""
+        return self._driving is not None and self._driving.hangs
+
     def send_safe_codes(self) -> None:
-        """End what acts at this moment, if something does; any thread may."""
-        if self._driven and self._driven.acting:
+        """End what acts, for good; any thread may, in the middle of anything."""
+        if self._driven:
             self._driven.send_safe_codes()
 
     def _play(
