@@ -92,7 +92,7 @@ def test_send_puts_one_frame_on_the_bus_and_prints_it(
     received = link.receive(timeout=5.0)
     assert isinstance(received.message, V2B_CMD)
     assert received.message.vehicle_speed == 42.0
-    assert done.stdout.startswith("0x1802F3D0  [0A E0 2A FF FF FF 3F 00]  V2B_CMD  checksum=10  ")
+    assert done.stdout.startswith("0x1802F3D0  [3A D0 2A FF FF FF 3F 00]  V2B_CMD  checksum=58  ")
     assert received.frame.data.hex(" ").upper() in done.stdout
     with pytest.raises(ReceiveTimeoutError):
         link.receive(timeout=0)
