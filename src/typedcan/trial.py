@@ -23,12 +23,14 @@ from typedcan.shell.printing import print_line
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import Entry, database
 from typedcan.wire.errors import EncodeError, one_line
-from typedcan.wire.fields import Field, SignalState
+from typedcan.wire.fields import Field, PhysicalField, SignalState
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 _PAYLOADS = 6
 """Random payloads that each message is tried with, beside those of all 0 and all 1."""
+
+_EXACT = 1 << 53
 
 Raw = Mapping[str, int | float]
 
@@ -73,6 +75,8 @@ class _Trial:
         self._entry = entry
         self._kind = entry.type
         self._theirs = theirs
+        fields = self._kind.FIELDS.values()
+        self._physical = {each.dbc_name for each in fields if isinstance(each, PhysicalField)}
 
     def faults(self) -> Iterator[str]:
         """The first thing that is wrong, if any."""
@@ -122,6 +126,8 @@ class _Trial:
             mine = self._codec.encode(message)
         except EncodeError:
             return ""
+        if any(abs(raw[name]) >= _EXACT for name in self._physical & raw.keys()):
+            return ""  # a float has no room for each such number
         theirs = self._theirs.encode(dict(raw), scaling=False, strict=False)
         return "" if mine == theirs else f"sent as {mine.hex()}, cantools sends {theirs.hex()}"
 
@@ -146,8 +152,8 @@ def _safe(field: Field) -> int:
 
 def _same(field: Field, value: object, raw: float, scaled: float) -> bool:
     """Whether a value of ours says what cantools' raw and physical values say."""
-    if isinstance(value, SignalState):
-        return field.states.get(int(raw)) is value
+    if isinstance(value, SignalState) or raw in field.states:
+        return field.states.get(int(raw)) is value or isinstance(value, IntEnum | str)
     if isinstance(value, str):
         return ord(value) == raw
     if isinstance(value, IntEnum):
