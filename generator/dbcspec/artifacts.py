@@ -14,6 +14,7 @@ from dbcspec.config import Config
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
 from dbcspec.emit.json_schema import emit_json_schemas
+from dbcspec.emit.long_names import with_dbc_names
 from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.rows import DOCUMENTS
@@ -57,7 +58,7 @@ def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
 
 def foreign_artifacts(protocol: Protocol, name: str) -> dict[str, bytes]:
     """What is generated of a protocol that is not the project's: DBC, stubs and matrix."""
-    named = dataclasses.replace(protocol, name=name)
+    named = with_dbc_names(dataclasses.replace(protocol, name=name))
     made = emit_foreign(named, name)
     return {**made, f"{name}.xlsx": emit_matrix(named)}
 

@@ -85,7 +85,7 @@ def test_where_signals_stand_is_where_cantools_packs_them() -> None:
             field = kind.FIELDS[name]
             highest = zeros | {field.dbc_name: (1 << field.length) - 1}
             lowest = zeros | {field.dbc_name: 1}
-            order = byte_order(PROTOCOL, kind)
+            order = byte_order(kind)
             packed = [
                 int.from_bytes(known.encode(raw, scaling=False, strict=False), order)
                 for raw in (highest, lowest)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 from dbcspec.artifacts import Stale, artifacts, foreign_artifacts, verify, write
 from dbcspec.commands import HELP
 from dbcspec.commands.common import Commands, load_sound_project, project_option
+from dbcspec.emit.stub_names import package_name
 from dbcspec.errors import StaleArtifactError
 from dbcspec.read.doors import open_side
+from dbcspec.trial import try_package
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
 from typedcan.shell.printing import print_line, printable_json
@@ -42,13 +43,16 @@ def _generate(options: argparse.Namespace) -> int:
         raise ReadError("--from and --out go together")
     if options.source:
         protocol = open_side(options.source, encoding=options.encoding).protocol
-        stem = Path(options.source.rsplit(":", 1)[-1]).stem
-        name = re.sub(r"\W", "_", stem, flags=re.ASCII)
+        name = package_name(Path(options.source.rsplit(":", 1)[-1]).stem)
         root, files = options.out, foreign_artifacts(protocol, name)
+        try_package(files, name, f"{name}.dbc")
     else:
         project = load_sound_project(options)
         protocol, root = project.protocol, project.config.root
-        files = artifacts(protocol, project.config)
+        config = project.config
+        files = artifacts(protocol, config)
+        if config.stubs:
+            try_package(files, config.stubs, f"{config.dbc}/{config.name}.dbc")
     changed = write(root, files)
     if options.json:
         print_line(

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import builtins
-import dataclasses
 import keyword
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from dbcspec.emit.dbc import emit_dbc
-from dbcspec.emit.stubs import TAKEN, class_name, emit_stubs
+from dbcspec.emit.stubs import emit_stubs
 from typedcan.model.errors import ReadError
-from typedcan.model.naming import snake_case
-from typedcan.model.protocol import Message, Protocol, Signal, ValueTable
+from typedcan.model.protocol import Message, Protocol, Signal
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_NO_FIELDS = {*keyword.kwlist, *dir(builtins), "to_raw", "enums", "messages"}
 
 
 def foreign_artifacts(protocol: Protocol, out_name: str) -> dict[str, bytes]:
@@ -30,7 +26,7 @@ def foreign_artifacts(protocol: Protocol, out_name: str) -> dict[str, bytes]:
     if faults := dbc_faults(protocol):
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         raise ReadError(f"{faults[0]}{more}")
-    stubs = emit_stubs(with_python_names(protocol))
+    stubs = emit_stubs(protocol)
     return {
         f"{out_name}.dbc": emit_dbc(protocol).encode("utf-8"),
         **{f"{out_name}/{name}": text.encode("utf-8") for name, text in stubs.items()},
@@ -105,50 +101,3 @@ def _text_faults(protocol: Protocol) -> Iterator[str]:
     for name, text in texts:
         if text.endswith("\\"):
             yield f"{name}: a text of it ends in a backslash"
-
-
-def with_python_names(protocol: Protocol) -> Protocol:
-    """The protocol with names of fields and enums that Python can have beside each other."""
-    taken = {class_name(message).lower() for message in protocol.messages}
-    taken |= {name.lower() for name in TAKEN}
-    tables: dict[ValueTable, ValueTable] = {}
-    for table in dict.fromkeys(
-        (*protocol.value_tables, *(each.value_table for _, each in protocol.signals()))
-    ):
-        if table:
-            name = next(each for each in _class_names(table.name) if each.lower() not in taken)
-            taken.add(name.lower())
-            tables[table] = dataclasses.replace(table, name=name)
-    return dataclasses.replace(
-        protocol,
-        messages=tuple(_named(message, tables) for message in protocol.messages),
-        value_tables=tuple(tables[table] for table in protocol.value_tables),
-    )
-
-
-def _class_names(name: str) -> Iterator[str]:
-    """``door_state`` as ``DoorState``, ``DoorStateCodes``, ``DoorStateCodes2`` and so on."""
-    camel = "".join(part[:1].upper() + part[1:] for part in name.split("_")) or "Codes"
-    camel = f"_{camel}" if camel[0].isdigit() else camel
-    if len(camel) > 1:  # one letter is what its table of labels would be called
-        yield camel
-    yield f"{camel}Codes"
-    count = 2
-    while True:
-        yield f"{camel}Codes{count}"
-        count += 1
-
-
-def _named(message: Message, tables: dict[ValueTable, ValueTable]) -> Message:
-    taken = set(_NO_FIELDS)
-    signals: list[Signal] = []
-    for signal in message.signals:
-        name = plain = signal.python_name or snake_case(signal.name)
-        count = 1
-        while name in taken:
-            name = f"{plain}_" if count == 1 else f"{plain}_{count}"
-            count += 1
-        taken.add(name)
-        table = tables[signal.value_table] if signal.value_table else None
-        signals.append(dataclasses.replace(signal, python_name=name, value_table=table))
-    return dataclasses.replace(message, signals=tuple(signals))

@@ -1,12 +1,13 @@
-"""Names longer than a DBC name may be: a short one in the file, the long one as an attribute."""
+"""Names that no DBC can have: others in the file, and the long ones as attributes."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from typedcan.model.naming import LONGEST_NAME
+from typedcan.model.naming import LONGEST_NAME, is_dbc_word, unused
 from typedcan.model.protocol import Message, Protocol, Signal
 
 
@@ -22,48 +23,75 @@ class LongName:
 
 def shortened(protocol: Protocol) -> tuple[Protocol, list[LongName]]:
     """The protocol with names that fit, and the names that did not."""
-    nodes = _short_names(node.name for node in protocol.nodes)
-    messages = _short_names(message.name for message in protocol.messages)
-    tables = _short_names(table.name for table in protocol.value_tables)
-    names = [LongName(short, long) for long, short in nodes.items()]
-    short_messages: list[Message] = []
+    new, names = _renamed(protocol, _short_names)
+    long_names = [name for name in names if name.short != name.long]
+    return new, long_names
+
+
+def with_dbc_names(protocol: Protocol) -> Protocol:
+    """The protocol with names of letters, digits and underscores, as DBC files and Python want."""
+    return _renamed(protocol, _plain_names)[0]
+
+
+def _renamed(
+    protocol: Protocol, rename: Callable[[Iterable[str]], dict[str, str]]
+) -> tuple[Protocol, list[LongName]]:
+    """The protocol with other names, if any; ``rename`` gives those of things of one kind."""
+    nodes = rename(node.name for node in protocol.nodes)
+    messages = rename(message.name for message in protocol.messages)
+    used = (*protocol.value_tables, *(each.value_table for _, each in protocol.signals()))
+    tables = rename(table.name for table in used if table)
+    names = [LongName(new, old) for old, new in nodes.items()]
+    changed: list[Message] = []
     for message in protocol.messages:
-        signals = _short_names(signal.name for signal in message.signals)
-        short = dataclasses.replace(
+        signals = rename(signal.name for signal in message.signals)
+        new = dataclasses.replace(
             message,
             name=messages[message.name],
             sender=nodes.get(message.sender, message.sender),
-            signals=tuple(_short_signal(each, signals, nodes) for each in message.signals),
+            signals=tuple(_signal(each, signals, nodes, tables) for each in message.signals),
         )
-        short_messages.append(short)
-        names.append(LongName(short.name, message.name, short))
-        names += [LongName(name, long, short, is_signal=True) for long, name in signals.items()]
-    long_names = [name for name in names if name.short != name.long]
-    if not long_names and all(short == long for long, short in tables.items()):
-        return protocol, []
-    return (
-        dataclasses.replace(
-            protocol,
-            nodes=tuple(
-                dataclasses.replace(node, name=nodes[node.name]) for node in protocol.nodes
-            ),
-            messages=tuple(short_messages),
-            value_tables=tuple(
-                dataclasses.replace(table, name=tables[table.name])
-                for table in protocol.value_tables
-            ),
+        changed.append(new)
+        names.append(LongName(new.name, message.name, new))
+        names += [LongName(name, old, new, is_signal=True) for old, name in signals.items()]
+    if all(each.short == each.long for each in names) and all(a == b for a, b in tables.items()):
+        return protocol, names
+    renamed = dataclasses.replace(
+        protocol,
+        nodes=tuple(dataclasses.replace(node, name=nodes[node.name]) for node in protocol.nodes),
+        messages=tuple(changed),
+        value_tables=tuple(
+            dataclasses.replace(table, name=tables[table.name]) for table in protocol.value_tables
         ),
-        long_names,
     )
+    return renamed, names
 
 
-def _short_signal(signal: Signal, signals: dict[str, str], nodes: dict[str, str]) -> Signal:
+def _signal(
+    signal: Signal, signals: dict[str, str], nodes: dict[str, str], tables: dict[str, str]
+) -> Signal:
+    table = signal.value_table
     return dataclasses.replace(
         signal,
         name=signals[signal.name],
         multiplexer=signals.get(signal.multiplexer, signal.multiplexer),
         receivers=tuple(nodes.get(name, name) for name in signal.receivers),
+        value_table=table and dataclasses.replace(table, name=tables[table.name]),
     )
+
+
+def _plain_names(names: Iterable[str]) -> dict[str, str]:
+    every = dict.fromkeys(names)
+    plain = {name: name for name in every if _PLAIN.fullmatch(name) and not is_dbc_word(name)}
+    for name in every:
+        if name not in plain:
+            other = re.sub(r"\W", "_", name, flags=re.ASCII) or "_"
+            other = f"_{other}" if other[0].isdigit() or is_dbc_word(other) else other
+            plain[name] = unused(other, plain.values())
+    return plain
+
+
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
 def _short_names(names: Iterable[str]) -> dict[str, str]:

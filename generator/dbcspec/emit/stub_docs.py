@@ -15,7 +15,7 @@ _WIDTH = 92
 
 def quote(text: str) -> str:
     """A string literal as the formatter wants it."""
-    plain = " ".join(text.split()) if not text.isprintable() else text
+    plain = _printable(text)
     mark = "'" if plain.count('"') > plain.count("'") else '"'
     return mark + plain.replace("\\", "\\\\").replace(mark, f"\\{mark}") + mark
 
@@ -24,7 +24,7 @@ def enum_doc(users: tuple[Signal, ...]) -> str:
     """Of an enum: whose codes they are."""
     first, *others = users
     more = f" and {len(others)} more" if others else ""
-    return _line(f"Codes of {first.name}{more}{_cited(first.reference)}.")
+    return line(f"Codes of {first.name}{more}{_cited(first.reference)}.")
 
 
 def field_doc(signal: Signal, says: str) -> str:
@@ -67,8 +67,8 @@ def message_doc(message: Message, said: Sequence[str], needed: Sequence[str]) ->
     facts = f"Identifier 0x{message.frame_id:08X}{_route(message)}{when}{while_}."
     if message.reference:
         facts += f" {message.reference}."
-    title = f"{_line(message.title)}.\n\n    " if message.title else ""
-    text = f"{_line(message.english or message.name)}.\n\n    {title}{_wrapped(facts)}"
+    title = f"{line(message.title)}.\n\n    " if message.title else ""
+    text = f"{line(message.english or message.name)}.\n\n    {title}{_wrapped(facts)}"
     rest = _not_given(said, needed)
     return f"{text}\n\n    {_wrapped(rest)}" if rest else text
 
@@ -93,11 +93,19 @@ def _cited(reference: str) -> str:
     return f", {reference}" if reference else ""
 
 
-def _line(text: str) -> str:
+def line(text: str) -> str:
     """One line that can stand between three quotes."""
-    return " ".join(text.split()).replace("\\", "\\\\").replace('"', "'")
+    text = " ".join(_printable(text).split())
+    return text.replace("\\", "\\\\").replace('"', "'")
+
+
+def _printable(text: str) -> str:
+    """The text with spaces for what nobody could see."""
+    if text.isprintable():
+        return text
+    return " ".join("".join(each if each.isprintable() else " " for each in text).split())
 
 
 def _wrapped(text: str) -> str:
-    lines = textwrap.wrap(_line(text), _WIDTH, break_long_words=False, break_on_hyphens=False)
+    lines = textwrap.wrap(line(text), _WIDTH, break_long_words=False, break_on_hyphens=False)
     return "\n    ".join(lines)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from dbcspec.emit.stub_branches import Conditions, conditions
 from dbcspec.emit.stub_docs import field_doc
+from dbcspec.emit.stub_names import StubNames
 from typedcan.model.kinds import Kind, kind_of
 from typedcan.model.layout import in_bit_order
 from typedcan.model.naming import member_names
@@ -34,27 +35,29 @@ class StubField:
     conditions: Conditions
 
 
-def fields_of(message: Message) -> list[StubField]:
+def fields_of(message: Message, names: StubNames) -> list[StubField]:
     """The fields of a message, in the order in which a DBC reader lists its signals."""
     ordered = in_bit_order(message.signals)
     return [
-        _field(message, signal, index, conditions(message, ordered, signal))
+        _field(message, signal, index, conditions(message, ordered, signal), names)
         for index, signal in enumerate(ordered)
     ]
 
 
-def _field(message: Message, signal: Signal, index: int, when: Conditions) -> StubField:
+def _field(
+    message: Message, signal: Signal, index: int, when: Conditions, names: StubNames
+) -> StubField:
     kind = kind_of(message, signal)
     absent = " | None" if when and kind is not Kind.FILLED else ""
     says = "" if when or kind is Kind.FILLED else _statement(signal)
     return StubField(
         signal=signal,
         kind=kind,
-        annotation=_annotation(signal, kind) + absent,
-        default="None" if when else None if signal.must_be_given else _default(signal, kind),
+        annotation=_annotation(signal, kind, names) + absent,
+        default="None" if when else None if signal.must_be_given else _default(signal, kind, names),
         says=says,
         doc=field_doc(signal, says),
-        expression=_expression(signal, kind, f"v[{index}]"),
+        expression=_expression(signal, kind, f"v[{index}]", names.codes_of(signal)),
         conditions=when,
     )
 
@@ -64,10 +67,10 @@ def _states(signal: Signal) -> dict[int, str]:
     return {code: state for code, state in pairs if code is not None}
 
 
-def _annotation(signal: Signal, kind: Kind) -> str:
+def _annotation(signal: Signal, kind: Kind, names: StubNames) -> str:
     state = " | SignalState" if _states(signal) else ""
-    if kind is Kind.LABELLED:
-        return f"{_enum_name(signal)} | {code_type(signal) or 'int'}"
+    if kind is Kind.LABELLED and signal.value_table:
+        return f"{names.enum_of(signal.value_table)} | {code_type(signal) or 'int'}"
     return {
         Kind.PHYSICAL: f"float{state}",
         Kind.FLOAT: "float",
@@ -86,13 +89,14 @@ def code_type(signal: Signal) -> str | None:
     return f"Code{signal.length}" if short else None
 
 
-def _default(signal: Signal, kind: Kind) -> str:
+def _default(signal: Signal, kind: Kind, names: StubNames) -> str:
     raw = signal.start_value
     if kind is Kind.FILLED:
         return "None"
     if kind is Kind.LABELLED and signal.value_table:
         member = members(signal.value_table).get(raw)
-        return f"{_enum_name(signal)}.{member}" if member else str(raw)
+        enum = names.enum_of(signal.value_table)
+        return f"{enum}.{member}" if member else str(raw)
     if kind is Kind.FLOAT:
         return _float(_physical(signal, raw))
     if raw in _states(signal):
@@ -119,11 +123,10 @@ def _float(value: float) -> str:
     return repr(value).replace("e+", "e")
 
 
-def _expression(signal: Signal, kind: Kind, raw: str) -> str:
+def _expression(signal: Signal, kind: Kind, raw: str, table: str) -> str:
     """Python that turns a raw value into the field's."""
     value = raw
     if kind in (Kind.LABELLED, Kind.CHARACTER):
-        table = code_table_name(signal)
         value = f"{table}[{raw}]" if has_short_table(signal) else f"{table}.get({raw}, {raw})"
     if kind is Kind.LABELLED:
         return value
@@ -136,22 +139,6 @@ def _expression(signal: Signal, kind: Kind, raw: str) -> str:
     for code, state in reversed(_states(signal).items()) if kind is not Kind.FLOAT else ():
         value = f"{state} if {raw} == {code} else {value}"
     return value
-
-
-def _enum_name(signal: Signal) -> str:
-    return signal.value_table.name if signal.value_table else ""
-
-
-def labels_name(table: ValueTable) -> str:
-    """What the labels of a value table are called beside its enum."""
-    return "".join(f"_{c}" if c.isupper() and i else c for i, c in enumerate(table.name)).upper()
-
-
-def code_table_name(signal: Signal) -> str:
-    """What the decoder looks codes up in; raw values of other lengths have others."""
-    table = signal.value_table
-    sign = "_SIGNED" if signal.signed else ""
-    return f"_{labels_name(table)}_{signal.length}{sign}" if table else ""
 
 
 def has_short_table(signal: Signal) -> bool:

@@ -2,46 +2,22 @@
 
 from __future__ import annotations
 
-import builtins
-import keyword
-
-from dbcspec.emit.stub_branches import Branches, called, declared
-from dbcspec.emit.stub_docs import enum_doc, message_doc, quote
+from dbcspec.emit.stub_branches import Branches, assigned, called, declared
+from dbcspec.emit.stub_docs import enum_doc, line, message_doc, quote
 from dbcspec.emit.stub_fields import (
     StubField,
-    code_table_name,
     code_type,
     fields_of,
     has_short_table,
     members,
 )
+from dbcspec.emit.stub_names import StubNames
 from dbcspec.emit.templating import template
 from typedcan.model.kinds import Kind, enums
 from typedcan.model.protocol import Message, Protocol
 from typedcan.model.serial import to_json
 
 _LONGEST_LINE = 100
-TAKEN = {
-    *keyword.kwlist,
-    *dir(builtins),
-    *(
-        "MESSAGES",
-        "MODEL",
-        "ENUMS",
-        "DECODERS",
-        "PROTOCOL",
-        "NAME",
-        "DIGEST",
-        "INVALID",
-        "ABNORMAL",
-    ),
-    *("Any", "Callable", "ClassVar", "Decoder", "IntEnum", "Mapping", "Sequence", "dataclass"),
-    *("annotations", "bind", "code_table", "draft_of", "enums", "messages", "model", "read_model"),
-    *("Message", "MessageModel", "SignalState", "Checksum", "Counter", "Field", "Selected"),
-    *(f"Code{bits}" for bits in range(1, 9)),
-}
-"""What stands in the modules of the stubs already."""
-
 
 RUNTIME = "typedcan.wire"
 """The package that the stubs stand on; among themselves they import relatively."""
@@ -49,26 +25,29 @@ RUNTIME = "typedcan.wire"
 
 def emit_stubs(protocol: Protocol) -> dict[str, str]:
     """Render the modules of a stub package, file name to text; they load wherever they lie."""
-    stubs = [(message, fields_of(message)) for message in protocol.messages]
+    names = StubNames(protocol)
+    protocol = names.protocol
+    stubs = [(message, fields_of(message, names)) for message in protocol.messages]
     context = {
         "protocol": protocol,
         "runtime": RUNTIME,
         "stubs": stubs,
         "imports": _imports(protocol, [field for _, fields in stubs for field in fields]),
-        "code_tables": _code_tables(stubs),
+        "code_tables": _code_tables(stubs, names),
         "branches": Branches(protocol),
         "selects": _selects,
-        "class_of": class_name,
-        "class_names": sorted(map(class_name, protocol.messages)),
-        "function_of": _function_names(protocol).__getitem__,
+        "class_of": names.class_of,
+        "class_names": sorted(map(names.class_of, protocol.messages)),
         "doc": _doc,
         "quote": quote,
+        "line": line,
+        "assigned": assigned,
         "declared": declared,
         "called": called,
         "head": _head,
         "receivers": _receivers,
         "binding": _binding(protocol),
-        **_enum_context(protocol),
+        **_enum_context(names),
     }
     modules = ("__init__", "model", "enums", "messages", "decoders", "protocol")
     rendered = {f"{name}.py": template(f"{name}.py.j2").render(context) for name in modules}
@@ -79,11 +58,12 @@ MODEL_FILE = "protocol.json"
 """The whole model, beside the modules."""
 
 
-def _enum_context(protocol: Protocol) -> dict[str, object]:
-    tables = enums(protocol.messages)
+def _enum_context(names: StubNames) -> dict[str, object]:
+    tables = enums(names.protocol.messages)
     return {
         "enums": [(table, members(table), enum_doc(users)) for table, users in tables.items()],
-        "used_enums": sorted((table.name for table in tables), key=str.lower),
+        "enum_of": names.enum_of,
+        "used_enums": sorted(map(names.enum_of, tables), key=str.lower),
     }
 
 
@@ -113,32 +93,17 @@ def _selects(message: Message) -> bool:
     return any(signal.multiplexer in names for signal in message.signals)
 
 
-def class_name(message: Message) -> str:
-    """The class of a message: its name, if that is not taken in the modules of the stubs."""
-    return f"{message.name}_" if message.name in TAKEN else message.name
-
-
-def _function_names(protocol: Protocol) -> dict[Message, str]:
-    """The decoder of each message: its name in small letters, if that is its alone."""
-    classes = [class_name(message) for message in protocol.messages]
-    small = [name.lower() for name in classes]
-    return {
-        message: f"_{low}" if small.count(low) == 1 and low not in classes else f"_decode_{name}"
-        for message, name, low in zip(protocol.messages, classes, small, strict=True)
-    }
-
-
 def _import_order(name: str) -> tuple[bool, str]:
     """Classes before functions, as import sorters have it."""
     return name[0].islower(), name.lower()
 
 
-def _head(function: str, name: str) -> str:
-    """The first lines of a decoder function."""
-    line = f"def {function}(v: Sequence[int]) -> messages.{name}:"
+def _head(name: str) -> str:
+    """The first lines of the decoder function of a class."""
+    line = f"def _decode_{name}(v: Sequence[int]) -> messages.{name}:"
     if len(line) <= _LONGEST_LINE:
         return line
-    return f"def {function}(\n    v: Sequence[int],\n) -> messages.{name}:"
+    return f"def _decode_{name}(\n    v: Sequence[int],\n) -> messages.{name}:"
 
 
 def _doc(message: Message, fields: list[StubField]) -> str:
@@ -156,25 +121,27 @@ def _receivers(message: Message) -> str:
     return "\n".join((f"{target} (", *(f"        {name}," for name in names), "    )"))
 
 
-def _code_tables(stubs: list[tuple[Message, list[StubField]]]) -> list[tuple[str, str]]:
+def _code_tables(
+    stubs: list[tuple[Message, list[StubField]]], names: StubNames
+) -> list[tuple[str, str]]:
     """The look-up tables of the decoders: name and the expression that makes it."""
     tables: dict[str, str] = {}
     for message, fields in stubs:
         for field in fields:
             if field.signal.value_table and field.kind in (Kind.LABELLED, Kind.CHARACTER):
-                name = code_table_name(field.signal)
-                tables.setdefault(name, _code_table(class_name(message), field))
+                expression = _code_table(message, field, names)
+                tables.setdefault(names.codes_of(field.signal), expression)
     return sorted(tables.items())
 
 
-def _code_table(message: str, field: StubField) -> str:
+def _code_table(message: Message, field: StubField, names: StubNames) -> str:
     table = field.signal.value_table
     if field.kind is Kind.LABELLED and table:
-        source = f"enums.{table.name}"
+        source = f"enums.{names.enum_of(table)}"
         members_of = f"{{member.value: member for member in {source}}}"
     else:
         field_name = quote(field.signal.python_name)
-        source = members_of = f"messages.{message}.FIELDS[{field_name}].labels"
+        source = members_of = f"messages.{names.class_of(message)}.FIELDS[{field_name}].labels"
     if has_short_table(field.signal):
         return f"code_table({source}, {field.signal.length})"
     return members_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import PurePath
@@ -17,7 +17,7 @@ from typedcan.databases.value_tables import ValueTables, code_labelled, codes_of
 from typedcan.model import protocol as model
 from typedcan.model.errors import Location, ReadError
 from typedcan.model.layout import float_limits
-from typedcan.model.naming import field_name, shared_prefix
+from typedcan.model.naming import field_name, field_names, shared_prefix
 
 INVALID_LABELS = frozenset(
     {"signal invalid", "invalid", "sna", "signal not available", "not available", "信号无效"}
@@ -142,7 +142,7 @@ class _Builder:
         prefixes = (f"{message.name}_", shared_prefix([each.name for each in message.signals]))
         # cantools gives signals their long names, but leaves the short one where they select.
         long = dict(zip(places.short_names, (each.name for each in message.signals), strict=False))
-        fields = _unique(field_name(signal.name, prefixes) for signal in message.signals)
+        fields = field_names(field_name(signal.name, prefixes) for signal in message.signals)
         return model.Message(
             name=message.name,
             title=title,
@@ -267,15 +267,3 @@ def _limits(
         low if signal.minimum is None else _number(signal.minimum, signal, where),
         high if signal.maximum is None else _number(signal.maximum, signal, where),
     )
-
-
-def _unique(names: Iterable[str]) -> Iterator[str]:
-    """The names, repeated ones with a number."""
-    taken: set[str] = set()
-    for name in names:
-        free, count = name, 1
-        while free in taken:
-            count += 1
-            free = f"{name}_{count}"
-        taken.add(free)
-        yield free

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import builtins
 import keyword
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 LONGEST_NAME = 32
 """Characters that DBC tools accept in a name."""
@@ -14,6 +15,16 @@ _DBC_KEYWORD = re.compile(
     r"VERSION|NS_|BS_|BU_|BO_|SG_|CM_|VAL_|VAL_TABLE_|EV_|SIG_\w*|BA_\w*|CAT_\w*|FILTER|NS_DESC_"
 )
 
+_NO_FIELDS = frozenset(
+    {
+        *keyword.kwlist,
+        *dir(builtins),
+        *("MODEL", "NAME", "FRAME_ID", "EXTENDED", "LENGTH", "SENDER", "RECEIVERS", "PERIOD"),
+        *("FIELDS", "CHECKSUM", "COUNTER", "SELECTED", "to_raw", "_is_there"),
+    }
+)
+"""Names that Python, the annotations of fields, or all typed messages need."""
+
 
 def name_fault(name: str) -> str | None:
     """What keeps a name from being a DBC name, or None."""
@@ -21,9 +32,14 @@ def name_fault(name: str) -> str | None:
         return "is not an identifier (letters, digits and underscores)"
     if not 2 <= len(name) <= LONGEST_NAME:
         return f"has {len(name)} characters; 2 to {LONGEST_NAME} are allowed"
-    if name in _DBC_WORDS or _DBC_KEYWORD.fullmatch(name):
+    if is_dbc_word(name):
         return "is a word of the DBC language"
     return None
+
+
+def is_dbc_word(name: str) -> bool:
+    """Whether a name means something else in DBC files."""
+    return name in _DBC_WORDS or bool(_DBC_KEYWORD.fullmatch(name))
 
 
 def snake_case(name: str) -> str:
@@ -56,16 +72,49 @@ def field_name(signal: str, prefixes: Iterable[str]) -> str:
     return snake_case(signal)
 
 
+def field_names(wanted: Iterable[str], also: Collection[str] = ()) -> list[str]:
+    """Names that fields can have beside each other: the wanted ones, as far as that goes.
+
+    What Python, typed messages or ``also`` need gets an underscore, a repeated name a number.
+    """
+    words = {*_NO_FIELDS, *also}
+    taken = set(words)
+    names: list[str] = []
+    for name in wanted:
+        plain = re.sub(r"\W", "_", name, flags=re.ASCII)
+        # Two underscores in front are spelt otherwise within a class.
+        plain = f"_{plain.lstrip('_')}" if plain.startswith("__") or plain[:1].isdigit() else plain
+        plain = f"{plain}_" if plain in words else plain
+        names.append(unused(plain or "_", taken))
+        taken.add(names[-1])
+    return names
+
+
+def unused(name: str, taken: Collection[str]) -> str:
+    """The name, or what of ``name_2``, ``name_3`` and so on is not taken first."""
+    free, count = name, 1
+    while free in taken:
+        count += 1
+        free = f"{name}_{count}"
+    return free
+
+
 def member_names(labels: Sequence[tuple[int, str]]) -> dict[int, str]:
     """Enum member names for codes with ASCII labels; repeated ones get their code appended."""
-    members: dict[int, str] = {}
+    plain: dict[int, str] = {}
     for value, label in labels:
         name = re.sub(r"[^A-Za-z0-9]+", "_", label).strip("_").upper() or "CODE"
-        members[value] = f"_{name}" if name[0].isdigit() else name
-    names = list(members.values())
-    for value, name in members.items():
+        plain[value] = f"_{name}" if name[0].isdigit() else name
+    names = list(plain.values())
+    taken = {name for name in names if names.count(name) == 1}
+    members: dict[int, str] = {}
+    for value, name in plain.items():
         if names.count(name) > 1:
             numbered = f"{name}_{value}".replace("-", "MINUS_")
-            # No label makes a name that ends in an underscore.
-            members[value] = f"{numbered}_" if numbered in names else numbered
+            # No label makes a name that ends in an underscore; enums keep those that also begin so.
+            while numbered in taken:
+                numbered = f"N{numbered}" if numbered[0] == "_" else f"{numbered}_"
+            taken.add(numbered)
+            name = numbered  # noqa: PLW2901 - the one that is free
+        members[value] = name
     return members

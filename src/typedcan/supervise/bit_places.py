@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
+from itertools import pairwise
 from typing import Literal, NamedTuple
 
-from typedcan.wire.database import Entry, database
+from typedcan.model import layout
+from typedcan.model import protocol as model
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Transfer
 
@@ -24,15 +26,19 @@ class Place(NamedTuple):
     shift: int | None
 
 
-def byte_order(protocol: Protocol, message: type[Message]) -> ByteOrder:
-    """The order of bytes in which the payload of a message is seen as a number."""
-    return database(protocol).by_type[message].packer.byte_order
+def byte_order(message: type[Message]) -> ByteOrder:
+    """The order of bytes in which the payload of a message is seen as a number.
+
+    Little where both orders are mixed.
+    """
+    orders = {signal.byte_order for signal in message.MODEL.signals}
+    return "big" if orders == {model.ByteOrder.MOTOROLA} else "little"
 
 
 @cache
 def bit_places(protocol: Protocol) -> Mapping[type[Message], Mapping[str, Place]]:
     """Where the signals of each message stand, by their names."""
-    return {message: _places(entry) for message, entry in database(protocol).by_type.items()}
+    return {message: _places(message) for message in protocol.messages}
 
 
 def numbering(protocol: Protocol, transfer: Transfer) -> int:
@@ -42,18 +48,14 @@ def numbering(protocol: Protocol, transfer: Transfer) -> int:
     return sum(masks)
 
 
-def _places(entry: Entry) -> dict[str, Place]:
-    """What each bit of the payload does to the raw values, found by unpacking it alone."""
-    length = entry.type.LENGTH
-    masks = dict.fromkeys(entry.type.FIELDS, 0)
-    shifts: dict[str, set[int]] = {name: set() for name in masks}
-    for bit in range(length * 8):
-        raws = entry.packer.unpack((1 << bit).to_bytes(length, entry.packer.byte_order))
-        for name, raw in zip(masks, raws, strict=True):
-            if raw:
-                masks[name] |= 1 << bit
-                shifts[name].add(bit + 1 - raw.bit_length())
-    return {
-        name: Place(mask, shifts[name].pop() if len(shifts[name]) == 1 else None)
-        for name, mask in masks.items()
-    }
+def _places(message: type[Message]) -> dict[str, Place]:
+    order, length = byte_order(message), message.LENGTH
+    places: dict[str, Place] = {}
+    for field in message.FIELDS.values():
+        bits = [
+            bit if order == "little" else bit + 8 * (length - 1 - 2 * (bit // 8))
+            for bit in layout.bits(field.signal)
+        ]
+        in_order = all(after == before + 1 for before, after in pairwise(bits))
+        places[field.name] = Place(sum(1 << bit for bit in bits), bits[0] if in_order else None)
+    return places

@@ -65,7 +65,7 @@ class TrackedMessage:
         self._periods = Periods()
         transfer = frames_of(protocol, kind)
         fields = watched_fields(protocol, kind)
-        order = byte_order(protocol, kind)
+        order = byte_order(kind)
         self._parts: Parts | None = None
         if transfer:
             bits = numbering(protocol, transfer)

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
 
 from typedcan.model import protocol as model
-from typedcan.wire.codes import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
+from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
 from typedcan.wire.fields import (
     ActingCodes,
     CharacterField,

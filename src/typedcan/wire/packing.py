@@ -7,13 +7,14 @@ they look signals up, scale and check. Its compiled formats are the part that mo
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from operator import itemgetter
-from typing import Any, Literal, NamedTuple
+from functools import reduce
+from operator import itemgetter, or_
+from typing import Any, NamedTuple
 
 from cantools.database.conversion import BaseConversion
 from cantools.database.utils import create_encode_decode_formats
 
-from typedcan.model.layout import in_bit_order
+from typedcan.model import layout
 from typedcan.model.protocol import ByteOrder, Message, Signal
 
 
@@ -31,50 +32,69 @@ class _Bits(NamedTuple):
 class Packer:
     """Packs and unpacks signals of a message of so many bytes, of either byte order or both.
 
-    The signals stand in the order of their bits.
+    The signals stand in the order of their bits. cantools' formats hold each bit once: signals that
+    share bits, as those of branches do, are moved by packers of their own.
     """
 
     def __init__(self, signals: Sequence[Signal], length: int) -> None:
-        bits: Any = [_bits(signal) for signal in signals]
+        own, *others = _apart(signals) or [signals]
+        bits: Any = [_bits(signal) for signal in own]
         formats = create_encode_decode_formats(bits, length)
         names = [signal.name for signal in signals]
-        orders = {signal.byte_order for signal in signals}
+        orders = {signal.byte_order for signal in own}
         self._length = length
         self._big: Any = formats.big_endian if ByteOrder.MOTOROLA in orders else None
         self._little: Any = formats.little_endian if ByteOrder.INTEL in orders else None
         self._pick: Any = itemgetter(*names) if len(names) > 1 else lambda raw: tuple(raw.values())
-
-    @property
-    def byte_order(self) -> Literal["big", "little"]:
-        """The order of bytes of most signals' numbers: little where both orders are mixed."""
-        return "little" if self._little else "big"
+        self._others = [Packer(each, length) for each in others]
+        self._zeros = dict.fromkeys(names, 0) if any(each.selectors for each in signals) else None
 
     def unpack(self, data: bytes) -> Sequence[int]:
         """The raw values in the order of the message's signals; ``data`` has its full length."""
+        raw = self._unpack(data)
+        for other in self._others:
+            raw |= other._unpack(data)  # noqa: SLF001 - of its own kind
+        values: Sequence[int] = self._pick(raw)
+        return values
+
+    def _unpack(self, data: bytes) -> dict[str, int]:
         if not self._little:
-            raw = self._big.unpack(data)
+            raw: dict[str, int] = self._big.unpack(data) if self._big else {}
         else:
             raw = self._little.unpack(data[::-1])
             if self._big:
                 raw.update(self._big.unpack(data))
-        values: Sequence[int] = self._pick(raw)
-        return values
+        return raw
 
     def pack(self, raw: Mapping[str, int]) -> bytes:
-        """The payload; ``raw`` has a value for every signal, bits without a signal are 0."""
-        little: bytes = self._little.pack(raw)[::-1] if self._little else bytes(self._length)
-        if not self._big:
-            return little
-        big: bytes = self._big.pack(raw)
-        if not self._little:
-            return big
-        both = int.from_bytes(little, "big") | int.from_bytes(big, "big")
-        return both.to_bytes(self._length, "big")
+        """The payload; ``raw`` has a value for every signal that is there, other bits are 0."""
+        if self._zeros:
+            raw = {**self._zeros, **raw}
+        parts = [self._little.pack(raw)[::-1]] if self._little else []
+        parts += [self._big.pack(raw)] if self._big else []
+        parts += [other.pack(raw) for other in self._others]
+        if len(parts) == 1:
+            payload: bytes = parts[0]
+            return payload
+        return reduce(or_, (int.from_bytes(part) for part in parts), 0).to_bytes(self._length)
+
+
+def _apart(signals: Sequence[Signal]) -> list[list[Signal]]:
+    """The signals in groups within which no two share a bit."""
+    groups: list[tuple[set[int], list[Signal]]] = []
+    for signal in signals:
+        taken = set(layout.bits(signal))
+        group = next((each for each in groups if each[0].isdisjoint(taken)), None)
+        if group is None:
+            groups.append(group := (set(), []))
+        group[0].update(taken)
+        group[1].append(signal)
+    return [members for _, members in groups]
 
 
 def packer_of(message: Message) -> Packer:
     """What packs all signals of a message, in the order of their bits."""
-    return Packer(in_bit_order(message.signals), message.length)
+    return Packer(layout.in_bit_order(message.signals), message.length)
 
 
 def _bits(signal: Signal) -> _Bits:

@@ -1,0 +1,167 @@
+"""Whether a generated package does what cantools does with its DBC, message by message.
+
+Run as a program, in a process of its own, with the folder that the packages lie in, and the name of
+a package and its DBC file for each: ``python -m typedcan.trial FOLDER PACKAGE FILE.dbc``. It prints
+a fault a line and exits 1 where there is one.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+import random
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+import cantools.database
+from cantools.database.can import Message as CantoolsMessage
+
+from typedcan.shell.printing import print_line
+from typedcan.wire.codec import Codec
+from typedcan.wire.database import Entry, database
+from typedcan.wire.errors import EncodeError, one_line
+from typedcan.wire.fields import Field, PhysicalField, SignalState
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
+
+_PAYLOADS = 6
+"""Random payloads that each message is tried with, beside those of all 0 and all 1."""
+
+_EXACT = 1 << 53
+
+Raw = Mapping[str, int | float]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Try the packages that are named, print what is wrong, and say whether something is."""
+    folder, package, file = arguments
+    sys.path.insert(0, str(Path(folder).resolve()))
+    faults = [*tried(package, Path(file))]
+    for fault in faults:
+        print_line(fault)
+    return 1 if faults else 0
+
+
+def tried(package: str, file: Path) -> Iterator[str]:
+    """What is wrong with a package, a line each; ``file`` is its DBC."""
+    try:
+        protocol: Protocol = importlib.import_module(f"{package}.protocol").PROTOCOL
+        codec = Codec(protocol)
+        entries = database(protocol).by_type
+    except Exception as error:  # noqa: BLE001 - generated code may raise anything
+        yield f"{package}: cannot be imported: {one_line(error)}"
+        return
+    theirs = cantools.database.load_file(file, encoding="utf-8", strict=False)
+    by_id = {(each.is_extended_frame, each.frame_id): each for each in theirs.messages}
+    for kind, entry in entries.items():
+        message = by_id.get((kind.EXTENDED, kind.FRAME_ID))
+        if message is None:
+            yield f"{kind.NAME}: is not in {file.name}"
+            continue
+        try:
+            yield from _Trial(codec, entry, message).faults()
+        except Exception as error:  # noqa: BLE001
+            yield f"{kind.NAME}: {one_line(error)}"
+
+
+class _Trial:
+    """One message beside cantools."""
+
+    def __init__(self, codec: Codec, entry: Entry, theirs: CantoolsMessage) -> None:
+        self._codec = codec
+        self._entry = entry
+        self._kind = entry.type
+        self._theirs = theirs
+        fields = self._kind.FIELDS.values()
+        self._physical = {each.dbc_name for each in fields if isinstance(each, PhysicalField)}
+
+    def faults(self) -> Iterator[str]:
+        """The first thing that is wrong, if any."""
+        for data in self._payloads():
+            raw = self._raw(data)
+            if raw is not None and (fault := self._decoded(data, raw) or self._encoded(data, raw)):
+                yield f"{self._kind.NAME}: {fault}"
+                return
+        if fault := self._default():
+            yield f"{self._kind.NAME}: {fault}"
+
+    def _payloads(self) -> Iterator[bytes]:
+        length = self._kind.LENGTH
+        yield bytes(length)
+        yield b"\xff" * length
+        source = random.Random(self._kind.NAME)
+        for _ in range(_PAYLOADS if length else 0):
+            yield source.randbytes(length)
+
+    def _raw(self, data: bytes) -> Raw | None:
+        """The raw values by cantools; None where it knows no such branch or a float is none."""
+        try:
+            raw: Any = self._theirs.decode_simple(data, decode_choices=False, scaling=False)
+        except cantools.database.DecodeError:
+            return None
+        return None if any(map(math.isnan, raw.values())) else raw
+
+    def _decoded(self, data: bytes, raw: Raw) -> str:
+        """What is wrong with the values of the message in a payload."""
+        message = self._entry.decode(self._entry.packer.unpack(data))
+        scaled: Any = self._theirs.decode_simple(data, decode_choices=False)
+        for field in self._kind.FIELDS.values():
+            name, value = field.dbc_name, getattr(message, field.name)
+            if (value is None) != (name not in raw):
+                return f"{field.name} is {value!r}, cantools has {raw.get(name)!r}"
+            if value is not None and not _same(field, value, raw[name], scaled[name]):
+                return f"{field.name} is {value!r}, cantools has {scaled[name]!r}"
+        return ""
+
+    def _encoded(self, data: bytes, raw: Raw) -> str:
+        """What is wrong with the payload that the message is sent as.
+
+        A value that was received may lie outside of what can be sent.
+        """
+        message = self._entry.decode(self._entry.packer.unpack(data))
+        try:
+            mine = self._codec.encode(message)
+        except EncodeError:
+            return ""
+        if any(abs(raw[name]) >= _EXACT for name in self._physical & raw.keys()):
+            return ""  # a float has no room for each such number
+        theirs = self._theirs.encode(dict(raw), scaling=False, strict=False)
+        return "" if mine == theirs else f"sent as {mine.hex()}, cantools sends {theirs.hex()}"
+
+    def _default(self) -> str:
+        """What is wrong with a message that nothing is given of but what must be given."""
+        try:
+            message = self._kind(**{each.name: _safe(each) for each in _needed(self._kind)})
+            data = self._codec.encode(message)
+        except EncodeError:
+            return ""  # what is sent of no value is outside of the range
+        raw = self._raw(data)
+        return self._decoded(data, raw) if raw is not None else ""
+
+
+def _needed(kind: type[Message]) -> list[Field]:
+    return [each for each in kind.FIELDS.values() if each.signal.must_be_given]
+
+
+def _safe(field: Field) -> int:
+    return field.acting.safe if field.acting else 0
+
+
+def _same(field: Field, value: object, raw: float, scaled: float) -> bool:
+    """Whether a value of ours says what cantools' raw and physical values say."""
+    if isinstance(value, SignalState) or raw in field.states:
+        return field.states.get(int(raw)) is value or isinstance(value, IntEnum | str)
+    if isinstance(value, str):
+        return ord(value) == raw
+    if isinstance(value, IntEnum):
+        return value.value == raw
+    if isinstance(value, int):
+        return value == raw
+    return isinstance(value, float) and math.isclose(value, scaled, rel_tol=1e-9, abs_tol=1e-12)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
