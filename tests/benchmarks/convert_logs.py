@@ -36,7 +36,7 @@ import pandas as pd
 from cantools.database.can import Database
 
 import swapcan
-from swapcan.logs.convert import convert_logs
+from swapcan.logs import convert_logs
 from swapcan.messages import MESSAGES
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.message import Message, PhysicalField
@@ -52,7 +52,7 @@ _SUFFIXES = (".blf", ".log", ".asc", ".mf4")
 _CHILD = """
 import sys
 from pathlib import Path
-from swapcan.logs.convert import convert_logs
+from swapcan.logs import convert_logs
 print(convert_logs([Path(sys.argv[1])], Path(sys.argv[2]))[1].counts.frames)
 print(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0])
 """

@@ -13,7 +13,7 @@ import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
@@ -30,10 +30,12 @@ from cantools.database.can import Database, Message, Signal
 from cantools.database.conversion import BaseConversion
 
 import swapcan
+from swapcan.log_protocol import OWN
+from swapcan.logs.database import protocol_of
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock, FrameFlag
 from swapcan.logs.plan import Mode
-from swapcan.logs.reserved import reserved_codes
+from typedcan.model import protocol as model
 
 _FEW = 20_000
 """Frames for those who take them one by one."""
@@ -78,7 +80,7 @@ def main() -> None:
         print(f"\n{title}, {given.frames:,} frames")
         with ExitStack() as stack:
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-            runs = {"cantools decode_message": _cantools(traffic), **_ours(traffic)}
+            runs = {"cantools decode_message": _cantools(traffic), **_ours(traffic, folder)}
             runs.update(_peers(traffic, folder))
             _compare(runs, given.rounds)
 
@@ -153,9 +155,10 @@ def _cantools(traffic: Traffic) -> Run:
     return len(traffic.few), run
 
 
-def _ours(traffic: Traffic) -> dict[str, Run]:
-    reserved = reserved_codes()
-    messages = traffic.database.messages
+def _ours(traffic: Traffic, folder: Path) -> dict[str, Run]:
+    path = folder / "ours.dbc"
+    path.write_text(traffic.dbc, encoding="ascii", newline="")
+    messages, reserved = protocol_of(path, OWN).messages, OWN.reserved
     runs: dict[str, Run] = {}
     for size in _BLOCKS:
         blocks = list(_blocks(traffic.block, size))
@@ -179,7 +182,7 @@ def _decode(blocks: list[FrameBlock], decode: Callable[[FrameBlock], object]) ->
         decode(block)
 
 
-def _decode_once(messages: list[Message], mode: Mode, block: FrameBlock) -> None:
+def _decode_once(messages: Sequence[model.Message], mode: Mode, block: FrameBlock) -> None:
     Decoder(messages, mode=mode).decode(block)
 
 

@@ -28,10 +28,11 @@ from swapcan.conform import RULES, Judge, judge_log
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Rule, Watcher
+from swapcan.log_protocol import OWN
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
-from swapcan.logs.protocol import protocol_of
+from typedcan.model.layout import bits
 
 _BLOCK = 1 << 17
 _PLAN = "hv_on@1s, ask@2s, drive@3s+80s, charge@95s+60s, hv_off@170s"
@@ -60,19 +61,13 @@ def repeated(once: FrameBlock, frames: int) -> Iterator[FrameBlock]:
 
 def _count_on(once: FrameBlock, data: np.ndarray, rounds: np.ndarray, rows: np.ndarray) -> None:
     """Let alive counters run on from round to round, and mend the checksums."""
-    database = {message.name: message for message in protocol_of().messages}
     for kind in PROTOCOL.messages:
         if kind.COUNTER is None:
             continue
         own = np.flatnonzero(once.frame_id[rows] == kind.FRAME_ID)
         step = int((once.frame_id == kind.FRAME_ID).sum()) % kind.COUNTER.modulus
-        signal = database[kind.NAME].get_signal_by_name(kind.COUNTER.dbc_name)
-        byte, shift = divmod(
-            signal.start
-            if signal.byte_order == "little_endian"
-            else signal.start - signal.length + 1,
-            8,
-        )
+        signal = kind.MODEL.signal(kind.COUNTER.dbc_name)
+        byte, shift = divmod(bits(signal)[0], 8)
         mask = (1 << signal.length) - 1
         held = data[own, byte].astype(np.int64)
         count = ((held >> shift & mask) + rounds[own] * step) % kind.COUNTER.modulus
@@ -113,7 +108,7 @@ def main() -> None:
         once = block_of(recorded(_PLAN, seconds=_RUN, cscs=cscs))
         rate = len(once) / _RUN
         print(f"\na pack of {cscs} x 12 cells: {frames:,} frames, {rate:,.0f} a second on the bus")
-        decoder = Decoder(protocol_of().messages, mode=Mode.RAW)
+        decoder = Decoder(OWN.messages, mode=Mode.RAW)
         decoding = judging = 0.0
         judge = Judge()
         for block in repeated(once, frames):

@@ -9,12 +9,12 @@ from itertools import pairwise
 import numpy as np
 
 import swapcan
+from swapcan.log_protocol import OWN
 from swapcan.logs.cells import CellColumns, CycleTable
 from swapcan.logs.columns import DecodedBlock
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock, FrameFlag
 from swapcan.logs.plan import Mode
-from swapcan.logs.protocol import protocol_of
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
 from typedcan.wire.message import Message, SignalState
 
@@ -89,8 +89,7 @@ def block_of(sent: Sequence[Sent]) -> FrameBlock:
 
 
 def decoder(mode: Mode = Mode.PHYSICAL) -> Decoder:
-    protocol = protocol_of()
-    return Decoder(protocol.messages, mode=mode, reserved=protocol.reserved)
+    return Decoder(OWN.messages, mode=mode, reserved=OWN.reserved)
 
 
 def decoded(sent: Sequence[Sent], mode: Mode = Mode.PHYSICAL) -> DecodedBlock:

@@ -10,13 +10,15 @@ from typing import Any
 
 import numpy as np
 from cantools.database import DecodeError
-from cantools.database.can import Message, Signal
+from cantools.database.can import Database, Message, Signal
 from cantools.database.conversion import BaseConversion
 from cantools.database.errors import Error
 from cantools.typechecking import Choices
 from hypothesis import strategies as st
 
 from swapcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.databases.database import Labels, Places, to_protocol
+from typedcan.model import protocol as model
 
 NO_FLAGS = FrameFlag(0)
 _LABELS: Choices = OrderedDict({0: "no", 1: "yes"})
@@ -47,6 +49,14 @@ def block_of(frames: Sequence[Frame], width: int | None = None) -> FrameBlock:
         data=data,
         channels=("can0", "can1", "can2"),
     )
+
+
+def model_of(messages: Sequence[Message]) -> tuple[model.Message, ...]:
+    """The messages as the decoder takes them."""
+    nowhere = model.NOWHERE
+    places = [Places(nowhere, [nowhere] * len(each.signals)) for each in messages]
+    database = Database(list(messages), strict=False, sort_signals=None)
+    return to_protocol(database, "test", places, Labels()).messages
 
 
 def decoded_by_cantools(message: Message, data: bytes, *, scaling: bool) -> dict[str, Any] | None:
@@ -83,7 +93,7 @@ def signals(draw: st.DrawFn, name: str, length: int) -> Signal:
         byte_order=draw(st.sampled_from(["little_endian", "big_endian"])),
         is_signed=draw(st.booleans()),
         conversion=BaseConversion.factory(
-            scale=draw(st.one_of(st.just(1), _numbers)),
+            scale=draw(st.one_of(st.just(1), _numbers).filter(bool)),
             offset=draw(st.one_of(st.just(0), _offsets)),
             choices=choices,
             is_float=is_float,

@@ -15,10 +15,10 @@ from logs.table_logs import decoded, traffic, write_frames
 
 import swapcan
 from swapcan._generated import DIGEST
-from swapcan.logs.convert import tables
+from swapcan.logs import tables
+from swapcan.logs.database import DbcError
 from swapcan.logs.pipeline import Options
 from swapcan.logs.plan import Mode, SelectionError
-from swapcan.logs.protocol import DbcError
 from swapcan.messages import B2V_ST2, MESSAGES
 from typedcan.wire.message import SignalState
 

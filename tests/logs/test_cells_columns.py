@@ -18,7 +18,8 @@ from logs.cell_logs import (
     ucell,
 )
 
-from swapcan.logs.cells import CELLS, CellColumns, CellsError
+from swapcan.log_protocol import CELLS, OWN
+from swapcan.logs.cells import CellColumns, CellsError
 from swapcan.logs.columns import State
 from swapcan.logs.frames import FrameBlock, FrameFlag
 from swapcan.logs.plan import Mode
@@ -68,7 +69,7 @@ def test_bytes_written_by_hand_become_volts_and_degrees() -> None:
         data=np.array([list(bytes.fromhex(text)) for _, text in frames], np.uint8),
         channels=(None,),
     )
-    tables = CellColumns(assume_seen=False).add(decoder().decode(block).messages)
+    tables = CellColumns(OWN.readings, assume_seen=False).add(decoder().decode(block).messages)
     assert rows_of(tables) == [
         (
             "cells_1x4",
@@ -209,6 +210,6 @@ def test_probes_come_six_a_frame() -> None:
         Sent(0.1, temp(1, 1, 20, 21, 22, 23, 24, 25)),
         Sent(0.11, temp(1, 2, 26)),
     ]
-    found = rows_of(put_together(sent, CellColumns()))
+    found = rows_of(put_together(sent, CellColumns(OWN.readings)))
     readings = {f"probe_1_{n}": 19.0 + n for n in range(1, 8)}
     assert found == [("probes_1x7", "can0", 0.11, readings)]

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from logs.cell_logs import INVALID, Reading, Sent, put_together, totals, ucell
 
-from swapcan.logs.cells import CELLS, CellColumns, CycleCounts
+from swapcan.log_protocol import CELLS
+from swapcan.logs.cells import CellColumns, CycleCounts
 from swapcan.messages import B2V_BattInfo2
 from typedcan.wire.message import SignalState
 

@@ -9,9 +9,9 @@ import pyarrow as pa
 from logs.cell_logs import INVALID, Reading, Sent, cycle, decoded, totals
 
 import swapcan
+from swapcan.log_protocol import OWN
 from swapcan.logs.cells.arrow import CellTables
 from swapcan.logs.pipeline import Options
-from swapcan.logs.protocol import protocol_of
 
 TOLD = Sent(0.0, totals(2, 4))
 WHOLE: dict[int, list[Reading]] = {1: [3.1, 3.2], 2: [3.3, 3.4]}
@@ -20,7 +20,7 @@ LOG = [TOLD, *cycle(0.0, WHOLE), *cycle(0.1, LACKING)]
 
 
 def test_what_is_invalid_is_null_and_its_state_says_so() -> None:
-    shape = CellTables(protocol_of())
+    shape = CellTables(OWN)
     batches = [*shape.take(decoded(LOG)), *shape.finish()]
     table = pa.Table.from_batches([batch for name, batch in batches if name == "cells_2x2"])
     columns = table.to_pydict()
@@ -33,7 +33,7 @@ def test_what_is_invalid_is_null_and_its_state_says_so() -> None:
 
 
 def test_columns_carry_unit_and_place() -> None:
-    shape = CellTables(protocol_of())
+    shape = CellTables(OWN)
     list(shape.take(decoded(LOG)))
     schema = shape.schemas["cells_2x2"]
     assert schema.field("cell_2_1").metadata == {
@@ -46,7 +46,7 @@ def test_columns_carry_unit_and_place() -> None:
 
 
 def test_a_conversion_has_them_beside_the_messages(tmp_path: Path) -> None:
-    from swapcan.logs.convert import tables
+    from swapcan.logs import tables
 
     path = tmp_path / "drive.blf"
     with can.Logger(path) as logger:

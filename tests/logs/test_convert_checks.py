@@ -17,12 +17,12 @@ from logs.decode_databases import Frame, block_of
 from logs.table_logs import START, traffic, write_frames
 
 import swapcan
+from swapcan.log_protocol import OWN
+from swapcan.logs import tables
 from swapcan.logs.checks import Checks, Faults
-from swapcan.logs.convert import tables
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameFlag
 from swapcan.logs.pipeline import Options
-from swapcan.logs.protocol import protocol_of
 from swapcan.logs.read import open_log
 from swapcan.messages import B2V_ST1, B2V_ST2, BSU_BMS_0, MESSAGES, V2B_CMD, B2V_BattInfo2
 from swapcan.wire import Receiver
@@ -31,9 +31,8 @@ from typedcan.wire.link import Fault, Received
 
 def _checked(log: Path, block_size: int, *, keep: bool = False) -> tuple[Faults, Counter[str]]:
     """The faults, and the frames that are left of each message."""
-    protocol = protocol_of()
-    decoder = Decoder(protocol.messages, reserved=protocol.reserved)
-    checks = Checks(protocol, keep_faulty=keep)
+    decoder = Decoder(OWN.messages, reserved=OWN.reserved)
+    checks = Checks(OWN, keep_faulty=keep)
     left: Counter[str] = Counter()
     with open_log(log, block_size) as source:
         for block in source:
@@ -136,8 +135,7 @@ def test_any_sequence_of_counters_is_judged_as_the_live_runtime_judges_it(
 
 
 def _counter_faults(frames: list[can.Message], block_size: int) -> Counter[str]:
-    protocol = protocol_of()
-    decoder, checks = Decoder(protocol.messages), Checks(protocol)
+    decoder, checks = Decoder(OWN.messages), Checks(OWN)
     for start in range(0, len(frames), block_size):
         part = frames[start : start + block_size]
         block = block_of([Frame(f.arbitration_id, bytes(f.data), FrameFlag.EXTENDED) for f in part])

@@ -20,7 +20,7 @@ from logs.table_logs import START, traffic, write_frames
 import swapcan
 from swapcan import cli
 from swapcan.commands import convert, log_options
-from swapcan.logs.convert import tables
+from swapcan.logs import tables
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.logs.plan import Mode
 from swapcan.logs.progress import Progress

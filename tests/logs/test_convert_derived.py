@@ -9,8 +9,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from logs.table_logs import traffic, write_frames
 
+from swapcan.logs import convert_logs
 from swapcan.logs.columns import DecodedBlock
-from swapcan.logs.convert import convert_logs
 from swapcan.logs.pipeline import Options
 from swapcan.logs.protocol import Protocol
 from swapcan.logs.shapes import Batch, Shape

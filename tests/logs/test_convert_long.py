@@ -12,7 +12,7 @@ from cantools.database.can import Database
 from logs.table_logs import START, decoded, own_database, traffic, write_frames
 
 import swapcan
-from swapcan.logs.convert import tables
+from swapcan.logs import tables
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.messages import B2V_ST2, MESSAGES
 from typedcan.wire.message import SignalState

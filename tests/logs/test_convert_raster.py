@@ -12,8 +12,7 @@ import pytest
 from logs.table_logs import START, own_database, traffic, write_frames
 
 import swapcan
-from swapcan.logs import pipeline
-from swapcan.logs.convert import tables
+from swapcan.logs import pipeline, tables
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.logs.raster import RasterError, raster_step
 from swapcan.messages import B2V_RQ, B2V_ST2, MESSAGES

@@ -12,7 +12,14 @@ import pytest
 from cantools.database.can import Message
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from logs.decode_databases import Frame, block_of, databases, decoded_by_cantools, traffic
+from logs.decode_databases import (
+    Frame,
+    block_of,
+    databases,
+    decoded_by_cantools,
+    model_of,
+    traffic,
+)
 
 from swapcan.logs.columns import Column, MessageColumns
 from swapcan.logs.decode import Decoder
@@ -60,7 +67,7 @@ def test_every_frame_decodes_as_cantools_does(
     mode: Mode, database: list[Message], seed: int, width: int | None
 ) -> None:
     frames = traffic(database, Random(seed), 60)
-    decoder = Decoder(database, mode=mode)
+    decoder = Decoder(model_of(database), mode=mode)
     decoded = decoder.decode(block_of(frames, width))
     for message in database:
         found = decoded.messages.get(message.name)

@@ -7,13 +7,14 @@ from collections import OrderedDict
 import pytest
 from cantools.database.can import Message, Signal
 from cantools.database.conversion import BaseConversion
-from logs.decode_databases import Frame, block_of
+from logs.decode_databases import Frame, block_of, model_of
 
 from swapcan.logs.columns import Column, State
 from swapcan.logs.decode import Decoder
+from typedcan.model import protocol as model
 
 
-def nested() -> Message:
+def nested() -> tuple[model.Message, ...]:
     """Page selects Low (0), Sub (1, 2); Sub selects Deep (7) and is labelled at 3."""
     low = Signal("Low", 8, 8, multiplexer_signal="Page", multiplexer_ids=[0])
     sub = Signal("Sub", 8, 4, multiplexer_signal="Page", multiplexer_ids=[1, 2])
@@ -21,7 +22,7 @@ def nested() -> Message:
     sub.conversion = BaseConversion.factory(choices=OrderedDict({3: "nothing"}))
     deep = Signal("Deep", 12, 4, multiplexer_signal="Sub", multiplexer_ids=[7])
     page = Signal("Page", 0, 8, is_multiplexer=True)
-    return Message(1, "M", 3, [page, low, sub, deep, Signal("Always", 16, 8)])
+    return model_of([Message(1, "M", 3, [page, low, sub, deep, Signal("Always", 16, 8)])])
 
 
 FRAMES = [
@@ -39,7 +40,7 @@ def items(column: Column) -> list[object]:
 
 
 def test_signals_of_other_branches_are_null() -> None:
-    found = Decoder([nested()]).decode(block_of(FRAMES)).messages["M"]
+    found = Decoder(nested()).decode(block_of(FRAMES)).messages["M"]
     assert found.rows.tolist() == [0, 1, 2]
     assert {name: items(column) for name, column in found.columns.items()} == {
         "Page": [0, 1, 2],
@@ -51,15 +52,15 @@ def test_signals_of_other_branches_are_null() -> None:
 
 
 def test_a_value_that_selects_nothing_leaves_the_frame_out() -> None:
-    counts = Decoder([nested()]).decode(block_of(FRAMES)).counts
+    counts = Decoder(nested()).decode(block_of(FRAMES)).counts
     assert counts.undecodable == {"M": 2}
     assert counts.decoded == {"M": 3}
 
 
 @pytest.mark.parametrize("wanted", ["Deep", "Always"])
 def test_which_frames_are_decoded_does_not_depend_on_the_signals_asked_for(wanted: str) -> None:
-    every = Decoder([nested()]).decode(block_of(FRAMES)).messages["M"]
-    one = Decoder([nested()], wanted={"M": [wanted]}).decode(block_of(FRAMES)).messages["M"]
+    every = Decoder(nested()).decode(block_of(FRAMES)).messages["M"]
+    one = Decoder(nested(), wanted={"M": [wanted]}).decode(block_of(FRAMES)).messages["M"]
     assert list(one.columns) == [wanted]
     assert one.rows.tolist() == every.rows.tolist()
     assert items(one.columns[wanted]) == [*items(every.columns[wanted])]
@@ -67,7 +68,7 @@ def test_which_frames_are_decoded_does_not_depend_on_the_signals_asked_for(wante
 
 def test_an_absent_signal_has_no_state() -> None:
     reserved = {("M", "Low"): {0x11: State.INVALID, 0x57: State.ABNORMAL}}
-    found = Decoder([nested()], reserved=reserved).decode(block_of(FRAMES)).messages["M"]
+    found = Decoder(nested(), reserved=reserved).decode(block_of(FRAMES)).messages["M"]
     column = found.columns["Low"]
     assert column.state is not None
     assert column.state.tolist() == [State.INVALID, State.VALUE, State.VALUE]

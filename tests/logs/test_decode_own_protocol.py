@@ -13,11 +13,11 @@ from cantools.database.can import Database
 from logs.decode_databases import Frame, block_of, payload
 
 import swapcan
+from swapcan.log_protocol import OWN
 from swapcan.logs.columns import Column, State
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameFlag
 from swapcan.logs.plan import Mode
-from swapcan.logs.reserved import reserved_codes
 from swapcan.messages import MESSAGES
 from typedcan.wire.message import SignalState
 
@@ -64,7 +64,7 @@ def test_all_signals_are_as_cantools_has_them(
     database: Database, frames: list[Frame], mode: Mode
 ) -> None:
     seen = 0
-    for frame, values in decoded(database, frames, Decoder(database.messages, mode=mode)):
+    for frame, values in decoded(database, frames, Decoder(OWN.messages, mode=mode)):
         expected = database.decode_message(
             frame.frame_id, frame.data, decode_choices=False, scaling=mode is Mode.PHYSICAL
         )
@@ -80,7 +80,7 @@ def test_reserved_codes_are_null_and_have_the_state_that_the_messages_show(
         State.INVALID: SignalState.INVALID,
         State.ABNORMAL: SignalState.ABNORMAL,
     }
-    result = Decoder(database.messages, reserved=reserved_codes()).decode(block_of(frames))
+    result = Decoder(OWN.messages, reserved=OWN.reserved).decode(block_of(frames))
     met = set()
     for name, message in result.messages.items():
         kind = next(kind for kind in MESSAGES if name == kind.NAME)
@@ -103,7 +103,7 @@ def test_reserved_codes_are_null_and_have_the_state_that_the_messages_show(
 def test_labelled_signals_keep_their_codes_and_carry_the_labels(
     database: Database, frames: list[Frame]
 ) -> None:
-    decoder = Decoder(database.messages, mode=Mode.LABELS, reserved=reserved_codes())
+    decoder = Decoder(OWN.messages, mode=Mode.LABELS, reserved=OWN.reserved)
     columns = decoder.decode(block_of(frames)).messages["V2B_CMD"].columns
     relay = columns["V2B_CMD_MainPosRelayST"]
     assert relay.signal.encoded
@@ -115,7 +115,7 @@ def test_labelled_signals_keep_their_codes_and_carry_the_labels(
 def test_a_label_that_says_invalid_only_does_not_make_a_measured_value_a_label(
     database: Database, frames: list[Frame]
 ) -> None:
-    decoder = Decoder(database.messages, mode=Mode.LABELS, reserved=reserved_codes())
+    decoder = Decoder(OWN.messages, mode=Mode.LABELS, reserved=OWN.reserved)
     columns = decoder.decode(block_of(frames)).messages["B2V_ST3"].columns
     resistance = columns["B2V_ST3_Pos_InsRes"]
     assert resistance.signal.labels == {65535: "Signal Invalid"}
@@ -136,7 +136,7 @@ def test_a_column_has_the_smallest_type_that_holds_its_values(
     database: Database, frames: list[Frame], message: str, signal: str, physical: str, raw: str
 ) -> None:
     for mode, expected in ((Mode.PHYSICAL, physical), (Mode.RAW, raw)):
-        found = Decoder(database.messages, mode=mode).decode(block_of(frames))
+        found = Decoder(OWN.messages, mode=mode).decode(block_of(frames))
         column = found.messages[message].columns[signal]
         assert column.values.dtype == expected
         assert column.values.flags.c_contiguous

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from swapcan.log_protocol import OWN
 from swapcan.logs.plan import SelectionError
 from swapcan.logs.plot.names import find_signals
-from swapcan.logs.protocol import protocol_of
 
 
 def found(*names: str) -> list[str]:
-    return [".".join(pair) for pair in find_signals(protocol_of(), names)]
+    return [".".join(pair) for pair in find_signals(OWN, names)]
 
 
 @pytest.mark.parametrize(

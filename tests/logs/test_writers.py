@@ -13,7 +13,7 @@ import pytest
 from logs.log_files import NEEDS_ASAMMDF
 from logs.table_logs import START, traffic, write_frames
 
-from swapcan.logs.convert import convert_logs, tables
+from swapcan.logs import convert_logs, tables
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.logs.plan import Mode
 from swapcan.logs.read import LogError

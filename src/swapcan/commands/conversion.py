@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from swapcan.console import CommandError, note, say
+from swapcan.log_tables import convert_logs
 from swapcan.logs.cells.arrow import CellTables
-from swapcan.logs.convert import convert_logs
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.logs.plan import Mode
 from swapcan.logs.progress import Progress

@@ -7,10 +7,11 @@ import secrets
 from pathlib import Path
 
 from swapcan.console import CommandError, note
+from swapcan.log_protocol import CELLS, OWN, PROBES
+from swapcan.logs.database import protocol_of
 from swapcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
 from swapcan.logs.plot.html import notes
 from swapcan.logs.progress import Progress
-from swapcan.logs.protocol import protocol_of
 from swapcan.logs.window import Moment, moment
 
 DAMAGED = 3
@@ -51,15 +52,14 @@ def run(options: argparse.Namespace) -> int:
 def _request(options: argparse.Namespace) -> PlotRequest:
     if not (options.signals or options.cells or options.probes):
         raise CommandError("say what to draw: --signals NAME,..., --cells or --probes")
-    protocol = protocol_of(options.dbc)
+    protocol = protocol_of(options.dbc, OWN)
     signals = find_signals(protocol, options.signals)
     if len(signals) > _MOST:
         raise CommandError(f"that is {len(signals)} signals; a plot has at most {_MOST}")
     return PlotRequest(
         protocol,
         signals,
-        cells=options.cells,
-        probes=options.probes,
+        [*([CELLS] if options.cells else []), *([PROBES] if options.probes else [])],
         start=_moment(options.start),
         end=_moment(options.end),
     )

@@ -20,14 +20,13 @@ from swapcan.conform.measure.periods import PeriodMeter
 from swapcan.conform.registry import RULES
 from swapcan.conform.rule import Rule
 from swapcan.conform.series import Series
+from swapcan.log_protocol import CELLS, OWN, PROBES
 from swapcan.logs.cells.cycles import CellColumns, CycleTable
-from swapcan.logs.cells.readings import CELLS, PROBES
 from swapcan.logs.checks import checksums_right, has_checksum, rows_where
 from swapcan.logs.columns import MessageColumns
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
-from swapcan.logs.protocol import protocol_of
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.message import Message
 
@@ -71,7 +70,7 @@ class Judge:
         self._watchers = [
             rule.watch(findings) for rule, findings in self._findings if judged & set(rule.judges)
         ]
-        self._decoder = Decoder(protocol_of().messages, mode=Mode.RAW)
+        self._decoder = Decoder(OWN.messages, mode=Mode.RAW)
         self._cells = _Cells()
         self._load, self._periods = LoadMeter(), PeriodMeter()
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
@@ -156,10 +155,8 @@ class _Cells:
 
     def __init__(self) -> None:
         wanted = dict.fromkeys((CELLS.message, PROBES.message, CELLS.totals))
-        self._decoder = Decoder(
-            protocol_of().messages, reserved=protocol_of().reserved, wanted=wanted
-        )
-        self._columns = CellColumns()
+        self._decoder = Decoder(OWN.messages, reserved=OWN.reserved, wanted=wanted)
+        self._columns = CellColumns(OWN.readings)
 
     def cycles(
         self, block: FrameBlock, homes: Mapping[str, int | str | None]
@@ -175,9 +172,9 @@ class _Cells:
 
 def _right(message: type[Message], columns: MessageColumns) -> NDArray[np.bool_] | None:
     """Which frames have the right checksum; None: all."""
-    if not has_checksum(message):
+    if not has_checksum(message.MODEL):
         return None
-    right = checksums_right(message, columns.block.data[columns.rows])
+    right = checksums_right(message.MODEL, columns.block.data[columns.rows])
     return None if right.all() else right
 
 

@@ -10,28 +10,28 @@ from typing import Any
 
 # The names, with their types, stand in __init__.pyi too.
 _HOMES = {
-    "BatchError": "batch",
-    "CellTables": "cells.arrow",
-    "Damage": "read",
-    "DamagedLogError": "batch",
-    "FRAME_SCHEMA": "batch",
-    "Layout": "pipeline",
-    "LogError": "read",
-    "LogSource": "read",
-    "Mode": "plan",
-    "Options": "pipeline",
-    "Progress": "progress",
-    "Shape": "shapes",
-    "Summary": "summary",
-    "Target": "write.target",
-    "convert_logs": "convert",
-    "decode_batch": "batch",
-    "frame_batches": "batch",
-    "moment": "window",
-    "open_log": "read",
-    "raster_step": "raster",
-    "schemas": "batch",
-    "tables": "convert",
+    "BatchError": ".batch",
+    "CellTables": ".cells.arrow",
+    "Damage": ".read",
+    "DamagedLogError": ".batch",
+    "FRAME_SCHEMA": ".batch",
+    "Layout": ".pipeline",
+    "LogError": ".read",
+    "LogSource": ".read",
+    "Mode": ".plan",
+    "Options": ".pipeline",
+    "Progress": ".progress",
+    "Shape": ".shapes",
+    "Summary": ".summary",
+    "Target": ".write.target",
+    "convert_logs": "swapcan.log_tables",
+    "decode_batch": "swapcan.log_tables",
+    "frame_batches": ".batch",
+    "moment": ".window",
+    "open_log": ".read",
+    "raster_step": ".raster",
+    "schemas": "swapcan.log_tables",
+    "tables": "swapcan.log_tables",
 }
 
 
@@ -39,7 +39,7 @@ def __getattr__(name: str) -> Any:
     """A public name, from the module that has it."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    value = getattr(import_module(_HOMES[name], __name__), name)
     globals()[name] = value
     return value
 

@@ -1,13 +1,11 @@
+from swapcan.log_tables import convert_logs, decode_batch, schemas, tables
 from swapcan.logs.batch import (
     FRAME_SCHEMA,
     BatchError,
     DamagedLogError,
-    decode_batch,
     frame_batches,
-    schemas,
 )
 from swapcan.logs.cells.arrow import CellTables
-from swapcan.logs.convert import convert_logs, tables
 from swapcan.logs.pipeline import Layout, Options
 from swapcan.logs.plan import Mode
 from swapcan.logs.progress import Progress

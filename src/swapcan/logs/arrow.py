@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-from cantools.database.can import Message
 from numpy.typing import NDArray
 
 from swapcan.logs.columns import Column, MessageColumns, SignalInfo
@@ -19,6 +18,7 @@ from swapcan.logs.plan import Mode, plan_of
 from swapcan.logs.protocol import Protocol
 from swapcan.logs.scaling import raw_dtype, scaling_of
 from swapcan.logs.selection import Selection
+from typedcan.model.protocol import Message
 
 Metadata = dict[bytes | str, bytes | str]
 """As Arrow takes it."""
@@ -179,7 +179,7 @@ def _state_array(column: Column, valid: NDArray[np.bool_] | None) -> pa.Array[An
 
 def _arrow_type(message: Message, info: SignalInfo) -> pa.DataType:
     """Whole numbers that 64 bits do not hold become digits; no other type holds them all."""
-    signal = message.get_signal_by_name(info.name)
+    signal = message.signal(info.name)
     dtype = scaling_of(signal).dtype if info.scaled else raw_dtype(signal)
     if dtype.kind == "O":
         return pa.string()
@@ -190,7 +190,7 @@ def _metadata(protocol: Protocol, message: Message, info: SignalInfo) -> Metadat
     metadata: Metadata = {
         "signal": info.name,
         "message": message.name,
-        "length": str(message.get_signal_by_name(info.name).length),
+        "length": str(message.signal(info.name).length),
         "unit": info.unit,
         "factor": repr(info.factor),
         "offset": repr(info.offset),

@@ -21,10 +21,11 @@ from swapcan.logs.arrow import (
 )
 from swapcan.logs.checks import Checks
 from swapcan.logs.columns import MessageColumns
+from swapcan.logs.database import protocol_of
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock, FrameFlag
 from swapcan.logs.plan import Mode
-from swapcan.logs.protocol import Protocol, protocol_of
+from swapcan.logs.protocol import Protocol
 from swapcan.logs.read import BLOCK_SIZE, Damage, open_log
 from swapcan.logs.selection import select
 from typedcan.model.errors import TypedcanError
@@ -50,6 +51,7 @@ class BatchError(TypedcanError, ValueError):
 def decode_batch(
     batch: pa.RecordBatch,
     *,
+    own: Protocol,
     dbc: Path | str | None = None,
     messages: Sequence[str] = (),
     signals: Sequence[str] = (),
@@ -68,8 +70,10 @@ def decode_batch(
         ``is_extended``, boolean. Without either, identifiers above 0x7FF are extended, and all
         frames are data frames. Other columns are passed over, as are rows without an identifier
         or payload.
+    own
+        The protocol where no database is given, and what is known of one made from it.
     dbc
-        A DBC file; None: this package's own protocol.
+        A DBC file, or another database; None: ``own``.
     messages, signals
         Names, as `swapcan.logs.selection.select` takes them; none: all.
     mode
@@ -78,7 +82,7 @@ def decode_batch(
         Strings in place of dictionaries and signed integers in place of unsigned ones, for engines
         that have neither, such as Spark.
     keep_faulty
-        Keep frames of this package's own protocol that have a wrong length or checksum.
+        Keep frames of ``own`` that have a wrong length or checksum.
 
     Returns
     -------
@@ -92,7 +96,7 @@ def decode_batch(
     DbcError, SelectionError
         The DBC cannot be read, or has no message or signal of such a name.
     """
-    protocol, decoder, tables = _prepared(dbc, tuple(messages), tuple(signals), mode)
+    protocol, decoder, tables = _prepared(own, dbc, tuple(messages), tuple(signals), mode)
     try:
         frames = _complete(batch)
         block = _block(frames)
@@ -107,6 +111,7 @@ def decode_batch(
 
 def schemas(
     *,
+    own: Protocol,
     dbc: Path | str | None = None,
     messages: Sequence[str] = (),
     signals: Sequence[str] = (),
@@ -117,7 +122,7 @@ def schemas(
 
     ``timestamp`` is float64 here; there it has the type it comes with. Raises as `decode_batch`.
     """
-    protocol = protocol_of(None if dbc is None else Path(dbc))
+    protocol = protocol_of(None if dbc is None else Path(dbc), own)
     tables = message_tables(protocol, select(protocol, messages, signals), mode)
     found = {name: table.schema for name, table in tables.items()}
     return {name: _plain_schema(each) for name, each in found.items()} if plain else found
@@ -169,11 +174,15 @@ _PER_THREAD = _PerThread()
 
 
 def _prepared(
-    dbc: Path | str | None, messages: tuple[str, ...], signals: tuple[str, ...], mode: Mode
+    own: Protocol,
+    dbc: Path | str | None,
+    messages: tuple[str, ...],
+    signals: tuple[str, ...],
+    mode: Mode,
 ) -> _Prepared:
-    key = (dbc, messages, signals, mode)
+    key = (own, dbc, messages, signals, mode)
     if key not in _PER_THREAD.prepared:
-        protocol = protocol_of(None if dbc is None else Path(dbc))
+        protocol = protocol_of(None if dbc is None else Path(dbc), own)
         wanted = select(protocol, messages, signals)
         decoder = Decoder(protocol.messages, mode=mode, reserved=protocol.reserved, wanted=wanted)
         _PER_THREAD.prepared[key] = protocol, decoder, message_tables(protocol, wanted, mode)

@@ -6,12 +6,12 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
-from cantools.database.can import Signal
 from numpy.typing import NDArray
 
 from swapcan.logs.columns import Column, DecodedBlock, MessageColumns
 from swapcan.logs.protocol import Protocol
-from typedcan.wire.message import Message
+from typedcan.model.layout import first_bit, whole_byte
+from typedcan.model.protocol import ByteOrder, Message, Signal
 
 PERIODS = 5
 """More than so many periods without a frame are a gap."""
@@ -79,7 +79,7 @@ class Checks:
     Parameters
     ----------
     protocol
-        The messages; only those of this package's own protocol have known checksums and counters.
+        The messages; those of databases have no known checksums and counters.
     keep_faulty
         Count wrong lengths and checksums, but leave the frames in. Their counters are passed over
         all the same.
@@ -87,7 +87,7 @@ class Checks:
 
     def __init__(self, protocol: Protocol, *, keep_faulty: bool = False) -> None:
         self.faults = Faults()
-        self._kinds = protocol.checked
+        self._checked = protocol.checked
         self._periods = {
             name: period
             for name, period in protocol.periods.items()
@@ -106,7 +106,7 @@ class Checks:
         self.faults.length.update(counts.too_short)
         for name, columns in decoded.messages.items():
             kept = sound = columns
-            good = self._good(self._kinds[name], columns) if name in self._kinds else None
+            good = self._good(self._checked[name], columns) if name in self._checked else None
             if good is not None:
                 sound = rows_where(columns, good)
                 kept = columns if self._keep_faulty else sound
@@ -126,17 +126,17 @@ class Checks:
         self._last_time = {}
         return self.faults
 
-    def _good(self, kind: type[Message], columns: MessageColumns) -> NDArray[np.bool_] | None:
+    def _good(self, message: Message, columns: MessageColumns) -> NDArray[np.bool_] | None:
         """The frames that are not refused; None: all."""
-        good = columns.block.length[columns.rows] == kind.LENGTH
+        good = columns.block.length[columns.rows] == message.length
         wrong = len(good) - int(np.count_nonzero(good))
         if wrong:
-            self.faults.length[kind.NAME] += wrong
-        if has_checksum(kind):
-            right = checksums_right(kind, columns.block.data[columns.rows])
+            self.faults.length[message.name] += wrong
+        if has_checksum(message):
+            right = checksums_right(message, columns.block.data[columns.rows])
             wrong = int(np.count_nonzero(good & ~right))
             if wrong:
-                self.faults.checksum[kind.NAME] += wrong
+                self.faults.checksum[message.name] += wrong
             good &= right
         return None if good.all() else good
 
@@ -180,26 +180,30 @@ class Checks:
             self.faults.gaps.setdefault(name, Gaps()).add(Gaps(len(long), float(long.max())))
 
 
-def has_checksum(kind: type[Message]) -> bool:
-    """Whether the standard states how the checksum of a message is made."""
-    return kind.CHECKSUM is not None and kind.CHECKSUM.algorithm == "xor"
+def has_checksum(message: Message) -> bool:
+    """Whether the protocol states how the checksum of a message is made."""
+    checksum = message.checksum
+    if checksum is None or checksum.algorithm != "xor":
+        return False
+    return whole_byte(message.signal(checksum.signal)) is not None
 
 
-def checksums_right(kind: type[Message], payload: NDArray[np.uint8]) -> NDArray[np.bool_]:
+def checksums_right(message: Message, payload: NDArray[np.uint8]) -> NDArray[np.bool_]:
     """Which payloads, a row each, carry the checksum of their bytes; needs `has_checksum`."""
-    checksum = kind.CHECKSUM
-    if checksum is None:
-        raise ValueError(f"{kind.NAME} has no checksum")
+    checksum = message.checksum
+    byte = None if checksum is None else whole_byte(message.signal(checksum.signal))
+    if checksum is None or byte is None:
+        raise ValueError(f"{message.name} has no checksum")
     covered = payload[:, checksum.first_byte : checksum.last_byte + 1]
-    right: NDArray[np.bool_] = np.bitwise_xor.reduce(covered, axis=1) == payload[:, checksum.byte]
+    right: NDArray[np.bool_] = np.bitwise_xor.reduce(covered, axis=1) == payload[:, byte]
     return right
 
 
 def raw_values(signal: Signal, payload: NDArray[np.uint8]) -> NDArray[np.uint64]:
     """The raw values of an unsigned signal in the first eight bytes of payloads, a row each."""
     order, shift = "<u8", signal.start
-    if signal.byte_order == "big_endian":
-        order, shift = ">u8", 64 - (8 * (signal.start // 8) + 7 - signal.start % 8) - signal.length
+    if signal.byte_order is ByteOrder.MOTOROLA:
+        order, shift = ">u8", 64 - first_bit(signal) - signal.length
     words = np.ascontiguousarray(payload[:, :8]).view(order)[:, 0].astype(np.uint64)
     return (words >> np.uint64(shift)) & np.uint64((1 << signal.length) - 1)
 
@@ -230,10 +234,10 @@ def _counters(protocol: Protocol) -> dict[str, _Counting]:
     """By message, the alive counters that can be followed."""
     counters: dict[str, _Counting] = {}
     for message in protocol.messages:
-        kind = protocol.checked.get(message.name)
-        counter = None if kind is None else kind.COUNTER
+        checked = protocol.checked.get(message.name)
+        counter = checked.counter if checked else None
         if counter:
-            signal = message.get_signal_by_name(counter.dbc_name)
-            reserved = tuple(protocol.reserved.get((message.name, counter.dbc_name), ()))
+            signal = message.signal(counter.signal)
+            reserved = tuple(protocol.reserved.get((message.name, counter.signal), ()))
             counters[message.name] = _Counting(signal, counter.modulus, reserved)
     return counters

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pyarrow as pa
 
+from swapcan.logs.database import protocol_of
 from swapcan.logs.parallel import read_many
 from swapcan.logs.pipeline import Layout, Options, Watch, read_rows, schemas_of
+from swapcan.logs.protocol import Protocol
 from swapcan.logs.summary import Summary
 from swapcan.logs.write.behind import behind
 from swapcan.logs.write.frame import Memory
@@ -23,6 +25,7 @@ def convert_logs(
     output: Path,
     options: Options | None = None,
     *,
+    own: Protocol,
     jobs: int | None = None,
     force: bool = False,
     watch: Watch | None = None,
@@ -37,6 +40,8 @@ def convert_logs(
         A name whose suffix says which kind of file; see `swapcan.logs.write.target.target_of`.
     options
         What is to be made of the logs.
+    own
+        The protocol where the options give no database, and what is known of one made from it.
     jobs
         Logs that are read at a time; None: as many as there are cores.
     force
@@ -58,18 +63,21 @@ def convert_logs(
         While reading or writing.
     """
     chosen = options or Options()
-    schemas = schemas_of(chosen)
+    protocol = protocol_of(chosen.dbc, own)
+    schemas = schemas_of(protocol, chosen)
     target = target_of(output, single=len(schemas) == 1)
     if target.suffix == ".mf4" and chosen.layout is Layout.LONG:
         raise OutputError(f"{output}: MF4 has a group per message, it holds no long table")
     if any(log.resolve() == target.path.resolve() for log in logs):
         raise OutputError(f"{target.path}: this is one of the logs")
     with writing(target, schemas, force=force) as sink, behind(sink) as queue:
-        summary = _read(logs, chosen, queue, jobs or os.cpu_count() or 1, watch or _unwatched)
+        summary = _read(
+            logs, protocol, chosen, queue, jobs or os.cpu_count() or 1, watch or _unwatched
+        )
     return target, summary
 
 
-def tables(*logs: Path | str, options: Options | None = None) -> dict[str, pa.Table]:
+def tables(*logs: Path | str, options: Options | None = None, own: Protocol) -> dict[str, pa.Table]:
     """The tables of logs in memory, by name; ``table.to_pandas()`` or ``polars.from_arrow(table)``.
 
     Parameters
@@ -78,6 +86,8 @@ def tables(*logs: Path | str, options: Options | None = None) -> dict[str, pa.Ta
         Their frames follow one another in this order.
     options
         What is to be made of the logs.
+    own
+        The protocol, as `convert_logs` has it.
 
     Raises
     ------
@@ -86,19 +96,29 @@ def tables(*logs: Path | str, options: Options | None = None) -> dict[str, pa.Ta
         damage are there; `convert_logs` says what is lost.
     """
     memory = Memory()
-    _read([Path(log) for log in logs], options or Options(), memory, 1, _unwatched)
+    chosen = options or Options()
+    protocol = protocol_of(chosen.dbc, own)
+    _read([Path(log) for log in logs], protocol, chosen, memory, 1, _unwatched)
     return memory.tables()
 
 
-def _read(logs: Sequence[Path], options: Options, sink: Sink, jobs: int, watch: Watch) -> Summary:
+def _read(
+    logs: Sequence[Path],
+    protocol: Protocol,
+    options: Options,
+    sink: Sink,
+    jobs: int,
+    watch: Watch,
+) -> Summary:
     jobs = min(jobs, len(logs))
     if jobs > 1:
-        return read_many(logs, options, sink, jobs, watch)
+        return read_many(logs, protocol, options, sink, jobs, watch)
     summary = Summary()
     rows = _Once(sink)
     before = 0
     for log in logs:
-        found = read_rows(log, options, rows, partial(_on, watch, before, summary.counts.frames))
+        on = partial(_on, watch, before, summary.counts.frames)
+        found = read_rows(log, protocol, options, rows, on)
         before += log.stat().st_size
         summary.add(found)
     rows.flush()

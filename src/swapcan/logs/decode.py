@@ -1,11 +1,10 @@
-"""Blocks of frames to columns of signals, for any cantools database."""
+"""Blocks of frames to columns of signals, for the messages of any protocol."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
 import numpy as np
-from cantools.database.can import Message
 from numpy.typing import NDArray
 
 from swapcan.logs.buffers import Buffers
@@ -16,6 +15,7 @@ from swapcan.logs.kernel import FRAMES, Values, bytes_of, values_of
 from swapcan.logs.multiplexing import Presence
 from swapcan.logs.plan import SHORT, MessagePlan, Mode, Reserved, SelectionError, plan_of
 from swapcan.logs.wide import wide_values
+from typedcan.model.protocol import Message
 
 _BUFFER = 256
 
@@ -32,7 +32,7 @@ class Decoder:
     Parameters
     ----------
     messages
-        Of a cantools database: ``database.messages``. Of two with the same identifier the later
+        Of the model of a protocol. Of two with the same identifier of the same width the later
         one counts, as in cantools.
     mode
         What the columns hold.
@@ -41,7 +41,7 @@ class Decoder:
     wanted
         The messages and signals to decode, None for all.
     frame_id_mask
-        Bits of identifiers that count, as cantools' database has them.
+        Bits of identifiers that count.
 
     Raises
     ------
@@ -61,8 +61,7 @@ class Decoder:
         frame_id_mask: int = 0xFFFFFFFF,
     ) -> None:
         known = {
-            (message.frame_id & frame_id_mask, message.is_extended_frame): message
-            for message in messages
+            (message.frame_id & frame_id_mask, message.extended): message for message in messages
         }
         names = {message.name for message in known.values()}
         for name in wanted or ():
@@ -75,7 +74,7 @@ class Decoder:
             for message in asked
         ]
         self._identifiers = Identifiers(
-            [(message.frame_id, message.is_extended_frame) for message in (*asked, *others)],
+            [(message.frame_id, message.extended) for message in (*asked, *others)],
             frame_id_mask,
         )
         self._known = len(known)

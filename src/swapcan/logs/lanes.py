@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cantools.database.can import Signal
+from typedcan.model.layout import first_bit
+from typedcan.model.protocol import ByteOrder, Signal
 
 _BYTES = 8
 
@@ -35,16 +36,6 @@ class Lane:
         return self.bits == 8 * self.width
 
 
-def network_bit(signal: Signal) -> int:
-    """The first bit of a big endian signal, counted from the top of the first byte."""
-    return 8 * (signal.start // 8) + 7 - signal.start % 8
-
-
-def first_bit(signal: Signal) -> int:
-    """Where a signal begins, counted as its byte order counts."""
-    return network_bit(signal) if signal.byte_order == "big_endian" else signal.start
-
-
 def lane_of(signal: Signal, row: int) -> Lane | None:
     """The narrowest word in a payload of ``row`` bytes that holds the signal.
 
@@ -59,6 +50,6 @@ def lane_of(signal: Signal, row: int) -> Lane | None:
     # A word that would reach beyond the payload begins earlier instead.
     byte = min(byte, row - width)
     inside = first - 8 * byte
-    big_endian = signal.byte_order == "big_endian"
+    big_endian = signal.byte_order is ByteOrder.MOTOROLA
     shift = 8 * width - inside - signal.length if big_endian else inside
     return Lane(byte, width, big_endian, shift, signal.length)

@@ -8,10 +8,10 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from cantools.database.can import Message, Signal
 from numpy.typing import NDArray
 
-from swapcan.logs.lanes import first_bit
+from typedcan.model.layout import first_bit
+from typedcan.model.protocol import ByteOrder, Message, Signal
 
 _FEW = 4
 """Up to so many codes, a comparison for each is faster than a search."""
@@ -47,10 +47,10 @@ class Multiplexing:
 
 def multiplexing_of(message: Message) -> Multiplexing:
     """Follow the multiplexers from the signals that are always there."""
-    children: dict[str | None, list[Signal]] = {}
+    children: dict[str, list[Signal]] = {}
     for signal in message.signals:
-        children.setdefault(signal.multiplexer_signal, []).append(signal)
-    roots = children.get(None, [])
+        children.setdefault(signal.multiplexer, []).append(signal)
+    roots = children.get("", [])
     branches: dict[str, Branch | None] = {}
     known: dict[str, Branch] = {}
     pending: list[tuple[Signal, Branch | None]] = [(signal, None) for signal in roots]
@@ -62,7 +62,7 @@ def multiplexing_of(message: Message) -> Multiplexing:
             sound = frozenset(value for value in values if _fits(_chosen(below, value), message))
             known[signal.name] = Branch(signal.name, sound)
             for child in below:
-                own = sound.intersection(child.multiplexer_ids or ())
+                own = sound.intersection(child.selectors)
                 if own:
                     pending.append((child, Branch(signal.name, own)))
     return Multiplexing(_fits(roots, message), branches, known)
@@ -70,20 +70,21 @@ def multiplexing_of(message: Message) -> Multiplexing:
 
 def _values(signal: Signal, below: Iterable[Signal]) -> set[int]:
     """What selects a branch; a labelled value does so even where no signal is in the branch."""
-    if not signal.is_multiplexer:
+    if not signal.is_selector:
         return set()
-    values = {value for child in below for value in child.multiplexer_ids or ()}
-    return values | set(signal.conversion.choices or ())
+    values = {value for child in below for value in child.selectors}
+    codes = signal.value_table.codes if signal.value_table else ()
+    return values | {code.value for code in codes}
 
 
 def _chosen(signals: Iterable[Signal], value: int) -> list[Signal]:
-    return [signal for signal in signals if value in (signal.multiplexer_ids or ())]
+    return [signal for signal in signals if value in signal.selectors]
 
 
 def _fits(signals: Sequence[Signal], message: Message) -> bool:
     """Whether cantools can unpack signals together: it reads them one behind the other."""
-    big = sorted((s for s in signals if s.byte_order == "big_endian"), key=first_bit)
-    little = [s for s in signals if s.byte_order == "little_endian"]
+    big = sorted((s for s in signals if s.byte_order is ByteOrder.MOTOROLA), key=first_bit)
+    little = [s for s in signals if s.byte_order is ByteOrder.INTEL]
     for ordered in (big, little):
         end = 0
         for signal in ordered:

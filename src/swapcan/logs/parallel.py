@@ -17,6 +17,7 @@ from typing import Any
 import pyarrow as pa
 
 from swapcan.logs.pipeline import Options, Watch, read_rows
+from swapcan.logs.protocol import Protocol
 from swapcan.logs.summary import Summary
 from swapcan.logs.write.sink import Files, Gathering, Sink, TableFile
 
@@ -26,7 +27,7 @@ _POLL = 0.1
 _PIECE = ".arrows"
 
 _shared: list[Any] = []
-"""In a process: the numbers that all share."""
+"""In a process: the numbers that all share, and the protocol."""
 
 
 class _Stopped(Exception):
@@ -50,7 +51,12 @@ class _Piece(TableFile):
 
 
 def read_many(
-    paths: Sequence[Path], options: Options, sink: Sink, jobs: int, watch: Watch
+    paths: Sequence[Path],
+    protocol: Protocol,
+    options: Options,
+    sink: Sink,
+    jobs: int,
+    watch: Watch,
 ) -> Summary:
     """Read logs in ``jobs`` processes and write their rows, log after log.
 
@@ -64,7 +70,7 @@ def read_many(
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="swapcan-")))
         pool = stack.enter_context(
-            ProcessPoolExecutor(jobs, context, initializer=_set_up, initargs=(numbers,))
+            ProcessPoolExecutor(jobs, context, initializer=_set_up, initargs=(numbers, protocol))
         )
         pending: deque[tuple[int, Future[Summary]]] = deque()
         waiting = deque(enumerate(paths))
@@ -86,17 +92,17 @@ def read_many(
     return summary
 
 
-def _set_up(numbers: Any) -> None:
+def _set_up(numbers: Any, protocol: Protocol) -> None:
     # Ctrl-C reaches all processes of a terminal; the one that started them sees to the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _shared[:] = [numbers]
+    _shared[:] = [numbers, protocol]
 
 
 def _read_one(number: int, path: Path, options: Options, folder: Path) -> Summary:
     folder.mkdir()
     sink = Files(_Piece, partial(_piece, folder))
     rows = Gathering(sink)
-    summary = read_rows(path, options, rows, partial(_note, number))
+    summary = read_rows(path, _shared[1], options, rows, partial(_note, number))
     rows.flush()
     sink.close()
     return summary

@@ -18,7 +18,7 @@ from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock
 from swapcan.logs.long_table import LongTable
 from swapcan.logs.plan import Mode
-from swapcan.logs.protocol import Protocol, protocol_of
+from swapcan.logs.protocol import Protocol
 from swapcan.logs.raster import Raster
 from swapcan.logs.read import LogSource, open_log
 from swapcan.logs.selection import select
@@ -49,7 +49,7 @@ class Options:
     Parameters
     ----------
     dbc
-        A DBC file; None: this package's own protocol.
+        A DBC file, or another database; None: the protocol that comes with the options.
     messages, signals
         Names, as `swapcan.logs.selection.select` takes them; none: all.
     start, end
@@ -94,17 +94,14 @@ Watch = Callable[[int, int], None]
 """Is told, now and then, how many bytes of a log are read, and how many frames."""
 
 
-def shapes_of(options: Options) -> list[Shape]:
+def shapes_of(protocol: Protocol, options: Options) -> list[Shape]:
     """What makes the tables, for one log.
 
     Raises
     ------
-    DbcError
-        The DBC cannot be read.
     SelectionError
         There is no message or signal of a name that was asked for.
     """
-    protocol = protocol_of(options.dbc)
     tables = _tables(protocol, options)
     shape: Shape
     if options.layout is Layout.LONG:
@@ -116,28 +113,30 @@ def shapes_of(options: Options) -> list[Shape]:
     return [shape, *(derive(protocol) for derive in options.derived)]
 
 
-def schemas_of(options: Options) -> dict[str, pa.Schema]:
+def schemas_of(protocol: Protocol, options: Options) -> dict[str, pa.Schema]:
     """The tables that there can be, by name; raises as `shapes_of`."""
-    return {name: schema for shape in shapes_of(options) for name, schema in shape.schemas.items()}
+    shapes = shapes_of(protocol, options)
+    return {name: schema for shape in shapes for name, schema in shape.schemas.items()}
 
 
-def read_rows(path: Path, options: Options, rows: Rows, watch: Watch) -> Summary:
+def read_rows(
+    path: Path, protocol: Protocol, options: Options, rows: Rows, watch: Watch
+) -> Summary:
     """Read one log, and hand on the rows of its tables.
 
     Raises
     ------
     LogError
         The log cannot be opened.
-    DbcError, SelectionError, TimeError
+    SelectionError, TimeError
         The options are wrong.
     """
-    protocol = protocol_of(options.dbc)
     wanted = select(protocol, options.messages, options.signals)
     decoder = Decoder(
         protocol.messages, mode=options.mode, reserved=protocol.reserved, wanted=wanted
     )
     checks = Checks(protocol, keep_faulty=options.keep_faulty)
-    shapes = shapes_of(options)
+    shapes = shapes_of(protocol, options)
     summary = Summary(logs=1)
     span = _Span()
     with open_log(path, _BLOCK) as log:

@@ -1,4 +1,4 @@
-"""A cantools message compiled: what to read, how to scale it, and when a signal is there."""
+"""A message compiled: what to read, how to scale it, and when a signal is there."""
 
 from __future__ import annotations
 
@@ -6,15 +6,21 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from cantools.database.can import Message, Signal
-
 from swapcan.logs.columns import SignalInfo, State
 from swapcan.logs.lanes import lane_of
 from swapcan.logs.multiplexing import Multiplexing, multiplexing_of
-from swapcan.logs.scaling import Scaling, plain_conversion, raw_dtype, raw_range, scaling_of
+from swapcan.logs.scaling import (
+    Scaling,
+    factor_of,
+    offset_of,
+    raw_dtype,
+    scaling_of,
+    to_physical,
+)
 from swapcan.logs.stacks import ByteLoad, Part, Stack, stacks_of
 from swapcan.logs.wide import Wide
 from typedcan.model.errors import TypedcanError
+from typedcan.model.protocol import Message, Signal
 
 SHORT, LONG = 8, 64
 """Bytes of a payload row, of CAN and of CAN FD."""
@@ -101,7 +107,7 @@ def plan_of(
         if name not in names:
             raise SelectionError(f"{message.name} has no signal {name!r}; it has {names}")
     multiplexing = multiplexing_of(message)
-    if message.is_container or not multiplexing.decodable:
+    if not multiplexing.decodable:
         multiplexing = Multiplexing(decodable=False, branches={}, known={})
     columns: list[SignalInfo] = []
     parts: list[Part | Wide] = []
@@ -117,7 +123,7 @@ def plan_of(
     return MessagePlan(
         message.name,
         message.frame_id,
-        message.is_extended_frame,
+        message.extended,
         message.length,
         tuple(columns),
         loads,
@@ -129,8 +135,8 @@ def plan_of(
 
 def _codes(message: Message, signal: Signal, reserved: Reserved) -> Mapping[int, State]:
     codes = reserved.get((message.name, signal.name), {})
-    if codes and not signal.conversion.is_float:
-        low, high = raw_range(signal)
+    if codes and not signal.is_float:
+        low, high = signal.raw_limits
         for code in codes:
             if not low <= code <= high:
                 raise ReservedCodeError(
@@ -141,15 +147,15 @@ def _codes(message: Message, signal: Signal, reserved: Reserved) -> Mapping[int,
 
 
 def _info(signal: Signal, mode: Mode, reserved: Mapping[int, State]) -> SignalInfo:
-    conversion = signal.conversion
-    labels = {code: str(label) for code, label in (conversion.choices or {}).items()}
-    plain = conversion.scale == 1 and conversion.offset == 0 and not conversion.is_float
+    labels = signal.value_table.labels() if signal.value_table else {}
+    factor, offset = factor_of(signal), offset_of(signal)
+    plain = factor == 1 and offset == 0 and not signal.is_float
     encoded = mode is Mode.LABELS and plain and not labels.keys() <= reserved.keys()
     return SignalInfo(
         name=signal.name,
-        unit=signal.unit or "",
-        factor=conversion.scale,
-        offset=conversion.offset,
+        unit=signal.unit,
+        factor=factor,
+        offset=offset,
         scaled=mode is not Mode.RAW and not encoded,
         labels=labels,
         encoded=encoded,
@@ -162,7 +168,7 @@ def _part(
     scaling = scaling_of(signal) if info.scaled else Scaling(raw_dtype(signal))
     lane = lane_of(signal, SHORT if message.length <= SHORT else LONG)
     if lane is None or not scaling.vector or raw_dtype(signal).kind == "O":
-        conversion = plain_conversion(signal) if info.scaled else None
-        return Wide(signal, message.length, scaling.dtype, conversion, reserved)
-    signed = signal.is_signed and not signal.conversion.is_float
+        factor_and_offset = to_physical(signal) if info.scaled else None
+        return Wide(signal, message.length, scaling.dtype, factor_and_offset, reserved)
+    signed = signal.signed and not signal.is_float
     return Part(signal.name, lane, signed, raw_dtype(signal), scaling, reserved)

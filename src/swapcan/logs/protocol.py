@@ -3,39 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
+from dataclasses import dataclass, replace
 
-import cantools
-from cantools.database.can import Database, Message
-
-from swapcan._generated.protocol import PROTOCOL
+from swapcan.logs.columns import State
+from swapcan.logs.grouped import Readings, readings_of
 from swapcan.logs.plan import Reserved
-from swapcan.logs.reserved import reserved_codes
-from swapcan.wire import dbc_text
-from typedcan.model.errors import TypedcanError
-from typedcan.shell.printing import printable
-from typedcan.wire.errors import one_line
-from typedcan.wire.message import Message as OwnMessage
+from typedcan.model import protocol as model
+from typedcan.model.layout import in_bit_order
 
 
-class DbcError(TypedcanError):
-    """A DBC file cannot be read."""
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Protocol:
     """The messages that frames are decoded by.
 
     Parameters
     ----------
     name, digest
-        Of the protocol; the digest is empty where the DBC carries none.
+        Of the protocol; the digest is empty where a database carries none.
     messages
-        As cantools has them.
+        Of the model, with their signals in the order of their bits.
     reserved
-        Raw codes that are no value; empty for a DBC of somebody else's.
+        Raw codes that are no value; empty for a database, whose labels may mean anything.
     references
         Where in the standard a signal stands, by names of message and signal.
     periods
@@ -43,78 +31,78 @@ class Protocol:
     conditional
         The names of those that are sent only while a condition holds: when they end is no gap.
     checked
-        The classes of messages whose length, checksum and alive counter are known, by name.
+        The messages whose length, checksum and alive counter are known, by name.
+    readings
+        What comes in groups over several frames, and becomes columns of its own.
     """
 
     name: str
     digest: str
-    messages: Sequence[Message]
+    messages: Sequence[model.Message]
     reserved: Reserved
     references: Mapping[tuple[str, str], str]
     periods: Mapping[str, float]
     conditional: frozenset[str]
-    checked: Mapping[str, type[OwnMessage]]
+    checked: Mapping[str, model.Message]
+    readings: tuple[Readings, ...]
 
 
-@cache
-def protocol_of(dbc: Path | None = None) -> Protocol:
-    """The protocol of a DBC file, this package's own where none is given.
+def known(protocol: model.Protocol, names: Mapping[str, tuple[str, str]] | None = None) -> Protocol:
+    """A protocol of which all is known.
 
-    Raises
-    ------
-    DbcError
-        Where there is no such file, or cantools cannot read it.
+    Parameters
+    ----------
+    names
+        What the tables of its transfers and the columns there are called, by name of the transfer;
+        one without is called as it is.
     """
-    if dbc is None:
-        return _own(_load(dbc_text(), "the packaged DBC"))
-    try:
-        text = dbc.read_text(encoding="cp1252", errors="replace")
-    except OSError as error:
-        raise DbcError(f"{dbc}: {error.strerror or error}") from None
-    database = _load(text, str(dbc))
-    digest = _digest(database)
-    if digest == PROTOCOL.digest:
-        return _own(database)
-    name = printable(dbc.stem)  # a file's name may hold bytes that are no text
-    return Protocol(name, digest, database.messages, {}, {}, _periods(database), frozenset(), {})
-
-
-def _load(text: str, where: str) -> Database:
-    try:
-        # Not strict: signals that overlap are found in many files, and harm nobody else.
-        database = cantools.database.load_string(text, "dbc", strict=False)
-    except (cantools.Error, ValueError, KeyError, IndexError) as error:
-        raise DbcError(f"{where}: cantools cannot read it: {one_line(error)}") from None
-    if not isinstance(database, Database):
-        raise DbcError(f"{where}: this is no CAN database")
-    return database
-
-
-def _own(database: Database) -> Protocol:
-    return Protocol(
-        PROTOCOL.name,
-        PROTOCOL.digest,
-        database.messages,
-        reserved_codes(),
-        {
-            (message.NAME, part.dbc_name): part.reference
-            for message in PROTOCOL.messages
-            for part in message.FIELDS.values()
+    return replace(
+        read(protocol, protocol.name),
+        digest=protocol.digest,
+        reserved=_reserved(protocol),
+        references={
+            (message.name, signal.name): signal.reference for message, signal in protocol.signals()
         },
-        {message.NAME: message.PERIOD for message in PROTOCOL.messages if message.PERIOD},
-        frozenset(message.NAME for message in PROTOCOL.conditional),
-        {message.NAME: message for message in PROTOCOL.messages},
+        conditional=frozenset(
+            message.name
+            for message in protocol.messages
+            if message.period and message.send_type is model.SendType.IF_ACTIVE
+        ),
+        checked={message.name: message for message in protocol.messages},
+        readings=readings_of(protocol, names or {}),
     )
 
 
-def _digest(database: Database) -> str:
-    attributes = database.dbc.attributes if database.dbc else {}
-    return str(attributes["SpecDigest"].value) if "SpecDigest" in attributes else ""
+def read(protocol: model.Protocol, name: str) -> Protocol:
+    """A protocol as a database says it, under a name of its own."""
+    return Protocol(
+        name=name,
+        digest=protocol.made_from,
+        messages=[_in_bit_order(message) for message in protocol.messages],
+        reserved={},
+        references={},
+        periods={each.name: each.period / 1000 for each in protocol.messages if each.period},
+        conditional=frozenset(),
+        checked={},
+        readings=(),
+    )
 
 
-def _periods(database: Database) -> dict[str, float]:
-    return {
-        message.name: message.cycle_time / 1000
-        for message in database.messages
-        if message.cycle_time
-    }
+def same(database: Protocol, own: Protocol) -> Protocol:
+    """What is known of a protocol, with the messages, units and labels of a database of it."""
+    return replace(own, messages=database.messages)
+
+
+def _in_bit_order(message: model.Message) -> model.Message:
+    return replace(message, signals=tuple(in_bit_order(message.signals)))
+
+
+def _reserved(protocol: model.Protocol) -> Reserved:
+    """By names of message and signal, the raw codes that are no value."""
+    found: dict[tuple[str, str], dict[int, State]] = {}
+    for message, signal in protocol.signals():
+        pairs = ((signal.invalid_code, State.INVALID), (signal.abnormal_code, State.ABNORMAL))
+        codes = {code: state for code, state in pairs if code is not None}
+        if codes and not signal.is_float:
+            found[message.name, signal.name] = codes
+    return found

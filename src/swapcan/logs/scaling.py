@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
-from cantools.database.can import Signal
-from cantools.database.conversion import (
-    BaseConversion,
-    IdentityConversion,
-    LinearConversion,
-    LinearIntegerConversion,
-)
+
+from typedcan.model.protocol import Signal
 
 FLOAT64 = np.dtype(np.float64)
 OBJECT = np.dtype(object)
@@ -40,27 +36,40 @@ class Scaling:
     vector: bool = True
 
 
-def plain_conversion(signal: Signal) -> BaseConversion:
-    """The signal's conversion without its labels."""
-    given = signal.conversion
-    if given.choices is None:
-        return given
-    return BaseConversion.factory(given.scale, given.offset, None, given.is_float)
+def factor_of(signal: Signal) -> float:
+    """The factor as Python's number."""
+    return _python_number(signal.factor)
+
+
+def offset_of(signal: Signal) -> float:
+    """The offset as Python's number."""
+    return _python_number(signal.offset)
+
+
+def to_physical(signal: Signal) -> tuple[float, float]:
+    """Factor and offset in the arithmetic of cantools: integers where both are whole.
+
+    But those of floats, which stay as they are; 1 and 0 change no value at all.
+    """
+    factor, offset = factor_of(signal), offset_of(signal)
+    if factor == 1 and offset == 0:
+        return 1, 0
+    if not signal.is_float and factor == int(factor) and offset == int(offset):
+        return int(factor), int(offset)
+    return factor, offset
+
+
+def _python_number(value: Decimal) -> float:
+    """An integer where no point or exponent is written, as the readers of databases have it."""
+    return float(value) if value.as_tuple().exponent else int(value)
 
 
 def raw_dtype(signal: Signal) -> np.dtype[Any]:
     """The smallest type that holds every raw value of the signal."""
-    if signal.conversion.is_float:
+    if signal.is_float:
         return np.dtype(f"f{signal.length // 8}")
-    low, high = raw_range(signal)
-    return integer_dtype(low, high, signed=signal.is_signed)
-
-
-def raw_range(signal: Signal) -> tuple[int, int]:
-    """The lowest and the highest raw value of a signal of an integer type."""
-    if signal.is_signed:
-        return -(1 << signal.length - 1), (1 << signal.length - 1) - 1
-    return 0, (1 << signal.length) - 1
+    low, high = signal.raw_limits
+    return integer_dtype(low, high, signed=signal.signed)
 
 
 def integer_dtype(low: int, high: int, *, signed: bool) -> np.dtype[Any]:
@@ -75,16 +84,13 @@ def integer_dtype(low: int, high: int, *, signed: bool) -> np.dtype[Any]:
 
 def scaling_of(signal: Signal) -> Scaling:
     """How raw values of the signal become physical ones."""
-    conversion = plain_conversion(signal)
-    if isinstance(conversion, IdentityConversion):
+    factor, offset = to_physical(signal)
+    if factor == 1 and offset == 0:
         # Adding -0 changes no number; adding 0 would make 0 of -0.
-        return Scaling(FLOAT64, 1.0, -0.0) if conversion.is_float else Scaling(raw_dtype(signal))
-    if not isinstance(conversion, LinearConversion | LinearIntegerConversion):
-        return Scaling(OBJECT, vector=False)
-    factor, offset = conversion.scale, conversion.offset
-    if conversion.is_float:
+        return Scaling(FLOAT64, 1.0, -0.0) if signal.is_float else Scaling(raw_dtype(signal))
+    if signal.is_float:
         return Scaling(FLOAT64, float(factor), float(offset))
-    low, high = raw_range(signal)
+    low, high = signal.raw_limits
     exact = abs(factor) * max(-low, high) + abs(offset) <= _EXACT
     if isinstance(factor, int) and isinstance(offset, int):
         return _whole(factor, offset, low, high, exact=exact)

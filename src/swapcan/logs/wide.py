@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from cantools.database.can import Signal
-from cantools.database.conversion import BaseConversion
 from numpy.typing import NDArray
 
 from swapcan.logs.columns import State
 from swapcan.logs.kernel import Values
-from swapcan.logs.lanes import first_bit
+from typedcan.model.layout import first_bit
+from typedcan.model.protocol import ByteOrder, Signal
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +28,8 @@ class Wide:
         Bytes of the message.
     dtype
         Of the column.
-    conversion
-        To physical values; None: the column holds raw values.
+    scaling
+        Factor and offset to physical values; None: the column holds raw values.
     reserved
         Raw codes that are no value.
     """
@@ -38,7 +37,7 @@ class Wide:
     signal: Signal
     length: int
     dtype: np.dtype[Any]
-    conversion: BaseConversion | None
+    scaling: tuple[float, float] | None
     reserved: Mapping[int, State]
 
 
@@ -46,8 +45,11 @@ def wide_values(wide: Wide, payload: NDArray[np.uint8]) -> Values:
     """The values of the signal, one per row; and states, where codes are reserved."""
     raw = [_raw(wide, row.tobytes()) for row in payload[:, : wide.length]]
     values = np.empty(len(raw), wide.dtype)
-    to_scaled = wide.conversion and wide.conversion.raw_to_scaled
-    values[:] = [to_scaled(value, decode_choices=False) for value in raw] if to_scaled else raw
+    if wide.scaling is None or wide.scaling == (1, 0):
+        values[:] = raw
+    else:
+        factor, offset = wide.scaling
+        values[:] = [value * factor + offset for value in raw]
     if not wide.reserved:
         return values, None, None
     states = np.array([wide.reserved.get(value, State.VALUE) for value in raw], np.uint8)
@@ -56,16 +58,16 @@ def wide_values(wide: Wide, payload: NDArray[np.uint8]) -> Values:
 
 def _raw(wide: Wide, data: bytes) -> Any:
     signal = wide.signal
-    if signal.byte_order == "big_endian":
+    if signal.byte_order is ByteOrder.MOTOROLA:
         below = 8 * wide.length - first_bit(signal) - signal.length
         word = int.from_bytes(data, "big") >> below
     else:
         word = int.from_bytes(data, "little") >> signal.start
     word &= (1 << signal.length) - 1
-    if signal.conversion.is_float:
+    if signal.is_float:
         size = signal.length // 8
         letter = {2: "e", 4: "f", 8: "d"}[size]
         return struct.unpack(f"<{letter}", word.to_bytes(size, "little"))[0]
-    if signal.is_signed and word >> signal.length - 1:
+    if signal.signed and word >> signal.length - 1:
         word -= 1 << signal.length
     return word

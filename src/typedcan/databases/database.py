@@ -98,7 +98,12 @@ class _Builder:
             messages=messages,
             value_tables=self._value_tables.all(),
             carries=self._carries(messages),
+            made_from=self._made_from(),
         )
+
+    def _made_from(self) -> str:
+        attributes = self._database.dbc.attributes if self._database.dbc else {}
+        return str(attributes["SpecDigest"].value) if "SpecDigest" in attributes else ""
 
     def _carries(self, messages: Sequence[model.Message]) -> frozenset[model.Aspect]:
         aspect = model.Aspect

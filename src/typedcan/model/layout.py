@@ -29,10 +29,11 @@ def _downwards(start: int, length: int) -> Iterator[int]:
 
 def in_bit_order(signals: Iterable[Signal]) -> list[Signal]:
     """Signals in the order in which DBC readers list them: by start bit, bytes from the left."""
-    return sorted(signals, key=_bit_order)
+    return sorted(signals, key=first_bit)
 
 
-def _bit_order(signal: Signal) -> int:
+def first_bit(signal: Signal) -> int:
+    """Where a signal begins, counted as its byte order counts: Motorola bytes from their top."""
     from_left = 8 * (signal.start // 8) + 7 - signal.start % 8
     return signal.start if signal.byte_order is ByteOrder.INTEL else from_left
 

@@ -260,7 +260,7 @@ class Protocol:
     """A whole protocol, every correction applied.
 
     ``carries`` tells what its source could say at all, so that a comparison does not take silence
-    for a difference.
+    for a difference; ``made_from`` is the digest of the protocol that it says it was made from.
     """
 
     name: str
@@ -277,6 +277,7 @@ class Protocol:
     requests: tuple[Request, ...] = ()
     errata: tuple[Erratum, ...] = ()
     carries: frozenset[Aspect] = field(default=frozenset(Aspect), compare=False)
+    made_from: str = field(default="", compare=False)
 
     def signals(self) -> Iterator[tuple[Message, Signal]]:
         """Every signal with its message, in order."""

@@ -16,12 +16,12 @@ from swapcan.conform.report.facts import failed, other_worst
 from swapcan.conform.report.sources import Source, sources_of
 from swapcan.conform.report.thinned import Points
 from swapcan.conform.rule import Severity
+from swapcan.log_protocol import OWN
 from swapcan.logs.checks import rows_where
 from swapcan.logs.columns import Column, MessageColumns
 from swapcan.logs.decode import Decoder
 from swapcan.logs.frames import FrameBlock
 from swapcan.logs.plan import Mode
-from swapcan.logs.protocol import protocol_of
 from swapcan.logs.read import open_log
 from swapcan.logs.read.blocks import rows_of
 from typedcan.wire.message import Message
@@ -188,9 +188,9 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
     """Read the log once, and decode only what is shown."""
     sources = [source for each in opened for source in each.sources]
     decoder = Decoder(
-        protocol_of().messages,
+        OWN.messages,
         mode=Mode.LABELS,
-        reserved=protocol_of().reserved,
+        reserved=OWN.reserved,
         wanted=_wanted(sources),
     )
     messages = {source.message.NAME: source.message for source in sources}

@@ -1,11 +1,11 @@
-"""One column per cell or probe, one row per complete cycle, from `B2V_Ucell` and `B2V_Temp`.
+"""One column per cell or probe, one row per complete cycle, from transfers by groups of sensors.
 
 The rules are those of the live runtime. A cycle has each frame of each CSC; how many CSCs and
-cells there are, `B2V_BattInfo2` says. A row has for every cell what was received last for it, none
-older than one and a half periods, and all of it received since the row before. What stays
-incomplete that long is counted. Frames of different channels are never put together.
+cells there are, another message says: the totals. A row has for every cell what was received last
+for it, none older than one and a half periods, and all of it received since the row before. What
+stays incomplete that long is counted. Frames of different channels are never put together.
 
-`B2V_BattInfo2` is sent on request only, so that many logs have it late or not at all. The live
+Totals that are sent on request only come late in many logs, or not at all. The live
 runtime reports nothing until then. In logs, by default, a cycle has as long what was seen in the
 first two seconds: the frames that came at least half as often as the most frequent one, and of
 each CSC the cells up to the last that had a value. With ``assume_seen=False`` nothing is assumed.
@@ -13,6 +13,7 @@ each CSC the cells up to the last that had a value. With ``assume_seen=False`` n
 
 from swapcan.logs.cells.assembly import CycleCounts
 from swapcan.logs.cells.cycles import CellColumns, CycleTable
-from swapcan.logs.cells.readings import CELLS, PROBES, CellsError, Readings
+from swapcan.logs.cells.readings import CellsError
+from swapcan.logs.grouped import Readings
 
-__all__ = ["CELLS", "PROBES", "CellColumns", "CellsError", "CycleCounts", "CycleTable", "Readings"]
+__all__ = ["CellColumns", "CellsError", "CycleCounts", "CycleTable", "Readings"]

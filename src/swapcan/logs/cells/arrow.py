@@ -20,7 +20,6 @@ from swapcan.logs.arrow import (
 )
 from swapcan.logs.cells.assembly import CycleCounts
 from swapcan.logs.cells.cycles import CellColumns, CycleTable
-from swapcan.logs.cells.readings import CELLS, PROBES
 from swapcan.logs.columns import DecodedBlock, State
 from swapcan.logs.protocol import Protocol
 from swapcan.logs.shapes import Batch, Shape
@@ -44,14 +43,14 @@ class CellTables(Shape):
 
     def __init__(self, protocol: Protocol, *, assume_seen: bool = True) -> None:
         self._protocol = protocol
-        self._columns = CellColumns(assume_seen=assume_seen)
+        self._columns = CellColumns(protocol.readings, assume_seen=assume_seen)
         self._schemas: dict[str, pa.Schema] = {}
 
     @property
     def schemas(self) -> Mapping[str, pa.Schema]:
         """What all tables begin with, and in full those that occurred."""
         begin = pa.schema([TIMESTAMP, CHANNEL])
-        return {CELLS.name: begin, PROBES.name: begin, **self._schemas}
+        return {**{each.name: begin for each in self._protocol.readings}, **self._schemas}
 
     @property
     def counts(self) -> dict[str, CycleCounts]:

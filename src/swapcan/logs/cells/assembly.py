@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.logs.cells.readings import KEY_BITS, ReadingFrames
+from swapcan.logs.cells.readings import ReadingFrames
 from swapcan.logs.cells.regular import Regular
 from swapcan.logs.cells.shape import Shape, frames_in
+from swapcan.logs.grouped import KEY_BITS
 
 _WINDOW_PERIODS = 1.5
 """Periods that a reading in a cycle may be old."""

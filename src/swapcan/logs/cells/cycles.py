@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.logs.cells.assembly import CycleCounts
-from swapcan.logs.cells.readings import CELLS, PROBES, CellsError, Readings, frames_of
+from swapcan.logs.cells.readings import CellsError, frames_of
 from swapcan.logs.cells.stream import Cycles, Layout, Stream
 from swapcan.logs.columns import MessageColumns
+from swapcan.logs.grouped import Readings
 from typedcan.transfer.shape import Totals
 
 Channel = int | str | None
@@ -71,9 +72,7 @@ class CellColumns:
         Whether, as long as the log has no totals, a cycle has what was seen in the first seconds.
     """
 
-    def __init__(
-        self, readings: Iterable[Readings] = (CELLS, PROBES), *, assume_seen: bool = True
-    ) -> None:
+    def __init__(self, readings: Iterable[Readings], *, assume_seen: bool = True) -> None:
         self._readings = tuple(readings)
         self._assume_seen = assume_seen
         self._streams: dict[tuple[str, Channel], Stream] = {}

@@ -1,4 +1,4 @@
-"""What is measured by CSC, and the frames that carry it, as columns."""
+"""The frames that carry what is measured by CSC, as columns."""
 
 from __future__ import annotations
 
@@ -8,85 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.logs.columns import Column, MessageColumns, State
-from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
+from swapcan.logs.grouped import KEY_BITS, Readings
 from typedcan.model.errors import TypedcanError
-from typedcan.wire.message import Message
 
 
 class CellsError(TypedcanError, ValueError):
     """What was decoded is not what cells and probes are made of."""
-
-
-KEY_BITS = 8
-"""Frame numbers have one byte; a key is the CSC above it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Readings:
-    """Readings of one kind, and the signals that carry them.
-
-    Parameters
-    ----------
-    name
-        Of the table.
-    item
-        What one reading is called, the begin of the names of columns.
-    message, period
-        The message, and seconds between its cycles.
-    csc, number
-        Signals: the CSC of a frame, and its number there from 1.
-    no_csc
-        Codes that are no CSC.
-    items
-        Signals: the readings of a frame in order.
-    unit
-        Of the readings.
-    totals, groups, count
-        The message that tells how many there are, and its signals: CSCs, and readings in all.
-    """
-
-    name: str
-    item: str
-    message: str
-    period: float
-    csc: str
-    number: str
-    no_csc: tuple[int, ...]
-    items: tuple[str, ...]
-    unit: str
-    totals: str
-    groups: str
-    count: str
-
-    def column(self, csc: int, number: int) -> str:
-        """Name of the column of a reading; both count from 1."""
-        return f"{self.item}_{csc}_{number}"
-
-
-def _readings(name: str, item: str, message: type[Message], unit: str, count: str) -> Readings:
-    number, csc, *items = message.FIELDS.values()
-    totals = B2V_BattInfo2.FIELDS
-    return Readings(
-        name=name,
-        item=item,
-        message=message.NAME,
-        period=message.PERIOD or 0.0,
-        number=number.dbc_name,
-        csc=csc.dbc_name,
-        no_csc=tuple(csc.states),
-        items=tuple(item.dbc_name for item in items),
-        unit=unit,
-        totals=B2V_BattInfo2.NAME,
-        groups=totals["tot_csc_num"].dbc_name,
-        count=totals[count].dbc_name,
-    )
-
-
-CELLS = _readings("cells", "cell", B2V_Ucell, "V", "tot_cell_num")
-"""Cell voltages."""
-
-PROBES = _readings("probes", "probe", B2V_Temp, "degC", "tot_temp_num")
-"""Probe temperatures."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.logs.cells.readings import KEY_BITS, ReadingFrames
+from swapcan.logs.cells.readings import ReadingFrames
+from swapcan.logs.grouped import KEY_BITS
 
 _CSCS = 1 << 8
 

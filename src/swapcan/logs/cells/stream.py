@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.logs.cells.assembly import Assembly, Complete, CycleCounts
-from swapcan.logs.cells.readings import KEY_BITS, ReadingFrames, no_frames
+from swapcan.logs.cells.readings import ReadingFrames, no_frames
 from swapcan.logs.cells.shape import Shape, TotalsShape, frames_in, seen_shape
+from swapcan.logs.grouped import KEY_BITS
 from typedcan.transfer.shape import Totals
 
 _WATCHED = 2.0

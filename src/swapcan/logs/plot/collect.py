@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from swapcan.logs.cells import CELLS, PROBES, CellColumns, CycleCounts, CycleTable, Readings
+from swapcan.logs.cells import CellColumns, CycleCounts, CycleTable, Readings
 from swapcan.logs.checks import Checks, taken
 from swapcan.logs.columns import MessageColumns, SignalInfo
 from swapcan.logs.decode import Decoder
@@ -42,23 +42,17 @@ class PlotRequest:
         What the log is decoded by.
     signals
         Names of messages and signals.
-    cells, probes
-        Whether to show cell voltages, and probe temperatures.
+    readings
+        What is shown as heat maps.
     start, end
         The part of the log, None: from the first frame, to the last.
     """
 
     protocol: Protocol
     signals: Sequence[SignalName] = ()
-    cells: bool = False
-    probes: bool = False
+    readings: Sequence[Readings] = ()
     start: Moment | None = None
     end: Moment | None = None
-
-    @property
-    def readings(self) -> list[Readings]:
-        """What is shown as heat maps."""
-        return [*([CELLS] if self.cells else []), *([PROBES] if self.probes else [])]
 
 
 def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> Plot:
@@ -78,7 +72,7 @@ def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> P
     LogError
         The log cannot be opened.
     SelectionError
-        Cells or probes are asked for, and the protocol has not their messages.
+        Readings are asked for, and the protocol has not their messages.
     TimeError
         The part of the log is given by dates, and the log has none.
     """
@@ -235,7 +229,7 @@ class _Collection:
     def _track(self, name: SignalName, info: SignalInfo) -> Track:
         protocol = self._request.protocol
         message = next(each for each in protocol.messages if each.name == name[0])
-        branch = message.get_signal_by_name(name[1]).multiplexer_ids
+        branch = message.signal(name[1]).selectors
         period = None if branch else protocol.periods.get(name[0])
         return Track(info, protocol.reserved.get(name, {}), period, self._clock.start)
 

@@ -11,7 +11,7 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.frames.bits import ALL_BITS, judge_zeros
 from swapcan.conform.rules.frames.reserved_bits import MASKS
 from swapcan.conform.text import Text
-from swapcan.logs.protocol import protocol_of
+from typedcan.model.layout import bits
 from typedcan.wire.message import Message
 
 _SET = Text("bits that no signal has are 1: {bits}", "未分配给信号的位为 1:第 {bits} 位")
@@ -32,14 +32,12 @@ class UnassignedBits(Watcher):
 @cache
 def _unassigned() -> dict[type[Message], int]:
     masks: dict[type[Message], int] = {}
-    for message in protocol_of().messages:
-        # With each signal full, cantools leaves 0 in the other bits.
-        ones = {signal.name: (1 << signal.length) - 1 for signal in message.signals}
-        full = int.from_bytes(message.encode(ones, scaling=False, strict=False), "little")
-        own = PROTOCOL.message(message.name)
-        free = ALL_BITS & ~full & ~MASKS.get(own, 0)
+    for message in PROTOCOL.messages:
+        free = ALL_BITS & ~MASKS.get(message, 0)
+        for signal in message.MODEL.signals:
+            free &= ~sum(1 << bit for bit in bits(signal))
         if free:
-            masks[own] = free
+            masks[message] = free
     return masks
 
 

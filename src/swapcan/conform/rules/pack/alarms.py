@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.rules.pack.surroundings import Surrounded, Surroundings, rows_of
 from swapcan.conform.series import Series
-from swapcan.logs.protocol import protocol_of
 from swapcan.messages import B2V_ST0, B2V_ST1
 from typedcan.wire.message import Message
 
@@ -81,9 +80,8 @@ class AlarmBits:
 @cache
 def alarm_bits(message: type[Message]) -> AlarmBits:
     """Where the alarms of a message are."""
-    (own,) = (each for each in protocol_of().messages if each.name == message.NAME)
-    names = {part.dbc_name for name, part in message.FIELDS.items() if name.startswith("flt_")}
-    places = [(each.name, each.start, each.length) for each in own.signals if each.name in names]
+    alarms = [part for name, part in message.FIELDS.items() if name.startswith("flt_")]
+    places = [(each.dbc_name, each.signal.start, each.length) for each in alarms]
     return AlarmBits(
         {name: place for name, place, length in places if length == 2},
         {name: place for name, place, length in places if length == 1},
@@ -164,8 +162,7 @@ def _field(words: Words, name: str) -> NDArray[np.int64]:
 @cache
 def _place(name: str) -> tuple[int, int]:
     """The lowest bit of a signal of B2V_ST1, and its mask there."""
-    (own,) = (each for each in protocol_of().messages if each.name == B2V_ST1.NAME)
-    signal = own.get_signal_by_name(name)
+    signal = B2V_ST1.MODEL.signal(name)
     return signal.start, (1 << signal.length) - 1
 
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.logs.cells.cycles import CycleTable
-from swapcan.logs.cells.readings import Readings
 from swapcan.logs.columns import State
+from swapcan.logs.grouped import Readings
 
 Numbers = NDArray[np.float64]
 

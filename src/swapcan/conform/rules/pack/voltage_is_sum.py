@@ -15,7 +15,7 @@ from swapcan.conform.rules.pack.history import History
 from swapcan.conform.rules.pack.runs import Runs
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.logs.cells.readings import CELLS
+from swapcan.log_protocol import CELLS
 from swapcan.messages import B2V_ST3
 
 _SHARE = Tolerance(

@@ -15,7 +15,7 @@ from swapcan.conform.text import Text
 from swapcan.logs.checks import has_checksum
 from typedcan.wire.protect import STANDARD_ALGORITHMS, expected_checksum
 
-_PROTECTED = tuple(message for message in PROTOCOL.messages if has_checksum(message))
+_PROTECTED = tuple(message for message in PROTOCOL.messages if has_checksum(message.MODEL))
 
 _WRONG = Text(
     "checksum 0x{given:02X}, the bytes make 0x{right:02X}",

@@ -1,0 +1,15 @@
+"""The protocol of this standard as `swapcan.logs` takes it."""
+
+from __future__ import annotations
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.logs.protocol import known
+
+OWN = known(
+    PROTOCOL.model,
+    {"cell_voltages": ("cells", "cell"), "probe_temperatures": ("probes", "probe")},
+)
+"""All that is known of it; its tables of readings are called ``cells`` and ``probes``."""
+
+CELLS, PROBES = OWN.readings
+"""Cell voltages, and probe temperatures."""

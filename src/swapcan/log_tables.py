@@ -1,0 +1,71 @@
+"""Logs of this standard to tables: what `swapcan.logs` has, with its protocol set."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pyarrow as pa
+
+from swapcan.log_protocol import OWN
+from swapcan.logs import batch as batches
+from swapcan.logs import convert
+from swapcan.logs.pipeline import Options, Watch
+from swapcan.logs.plan import Mode
+from swapcan.logs.summary import Summary
+from swapcan.logs.write.target import Target
+
+
+def convert_logs(
+    logs: Sequence[Path],
+    output: Path,
+    options: Options | None = None,
+    *,
+    jobs: int | None = None,
+    force: bool = False,
+    watch: Watch | None = None,
+) -> tuple[Target, Summary]:
+    """Convert logs to files of tables; see `swapcan.logs.convert.convert_logs`."""
+    return convert.convert_logs(logs, output, options, own=OWN, jobs=jobs, force=force, watch=watch)
+
+
+def tables(*logs: Path | str, options: Options | None = None) -> dict[str, pa.Table]:
+    """The tables of logs in memory, by name; see `swapcan.logs.convert.tables`."""
+    return convert.tables(*logs, options=options, own=OWN)
+
+
+def decode_batch(
+    batch: pa.RecordBatch,
+    *,
+    dbc: Path | str | None = None,
+    messages: Sequence[str] = (),
+    signals: Sequence[str] = (),
+    mode: Mode = Mode.PHYSICAL,
+    plain: bool = False,
+    keep_faulty: bool = False,
+) -> dict[str, pa.RecordBatch]:
+    """Decode frames; see `swapcan.logs.batch.decode_batch`."""
+    return batches.decode_batch(
+        batch,
+        own=OWN,
+        dbc=dbc,
+        messages=messages,
+        signals=signals,
+        mode=mode,
+        plain=plain,
+        keep_faulty=keep_faulty,
+    )
+
+
+def schemas(
+    *,
+    dbc: Path | str | None = None,
+    messages: Sequence[str] = (),
+    signals: Sequence[str] = (),
+    mode: Mode = Mode.PHYSICAL,
+    plain: bool = False,
+) -> dict[str, pa.Schema]:
+    """What `decode_batch` gives for the same arguments; see `swapcan.logs.batch.schemas`."""
+    return batches.schemas(
+        own=OWN, dbc=dbc, messages=messages, signals=signals, mode=mode, plain=plain
+    )
