@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.logs.protocol import known
+from typedcan.logs.protocol import known
 
 OWN = known(
     PROTOCOL.model,

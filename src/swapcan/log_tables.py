@@ -8,12 +8,12 @@ from pathlib import Path
 import pyarrow as pa
 
 from swapcan.log_protocol import OWN
-from swapcan.logs import batch as batches
-from swapcan.logs import convert
-from swapcan.logs.pipeline import Options, Watch
-from swapcan.logs.plan import Mode
-from swapcan.logs.summary import Summary
-from swapcan.logs.write.target import Target
+from typedcan.logs import batch as batches
+from typedcan.logs import convert
+from typedcan.logs.pipeline import Options, Watch
+from typedcan.logs.plan import Mode
+from typedcan.logs.summary import Summary
+from typedcan.logs.write.target import Target
 
 
 def convert_logs(
@@ -25,12 +25,12 @@ def convert_logs(
     force: bool = False,
     watch: Watch | None = None,
 ) -> tuple[Target, Summary]:
-    """Convert logs to files of tables; see `swapcan.logs.convert.convert_logs`."""
+    """Convert logs to files of tables; see `typedcan.logs.convert.convert_logs`."""
     return convert.convert_logs(logs, output, options, own=OWN, jobs=jobs, force=force, watch=watch)
 
 
 def tables(*logs: Path | str, options: Options | None = None) -> dict[str, pa.Table]:
-    """The tables of logs in memory, by name; see `swapcan.logs.convert.tables`."""
+    """The tables of logs in memory, by name; see `typedcan.logs.convert.tables`."""
     return convert.tables(*logs, options=options, own=OWN)
 
 
@@ -44,7 +44,7 @@ def decode_batch(
     plain: bool = False,
     keep_faulty: bool = False,
 ) -> dict[str, pa.RecordBatch]:
-    """Decode frames; see `swapcan.logs.batch.decode_batch`."""
+    """Decode frames; see `typedcan.logs.batch.decode_batch`."""
     return batches.decode_batch(
         batch,
         own=OWN,
@@ -65,7 +65,7 @@ def schemas(
     mode: Mode = Mode.PHYSICAL,
     plain: bool = False,
 ) -> dict[str, pa.Schema]:
-    """What `decode_batch` gives for the same arguments; see `swapcan.logs.batch.schemas`."""
+    """What `decode_batch` gives for the same arguments; see `typedcan.logs.batch.schemas`."""
     return batches.schemas(
         own=OWN, dbc=dbc, messages=messages, signals=signals, mode=mode, plain=plain
     )

@@ -31,10 +31,10 @@ from cantools.database.conversion import BaseConversion
 
 import swapcan
 from swapcan.log_protocol import OWN
-from swapcan.logs.database import protocol_of
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock, FrameFlag
-from swapcan.logs.plan import Mode
+from typedcan.logs.database import protocol_of
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.plan import Mode
 from typedcan.model import protocol as model
 
 _FEW = 20_000

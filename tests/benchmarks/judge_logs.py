@@ -29,9 +29,9 @@ from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Rule, Watcher
 from swapcan.log_protocol import OWN
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock
-from swapcan.logs.plan import Mode
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameBlock
+from typedcan.logs.plan import Mode
 from typedcan.model.layout import bits
 
 _BLOCK = 1 << 17

@@ -9,7 +9,7 @@ import can
 from conform.recorded import block_of
 
 from swapcan.conform import Judge, Judgement, Rule, RuleResult
-from swapcan.logs.read import open_log
+from typedcan.logs.read import open_log
 
 ALL = 1 << 17
 

@@ -10,7 +10,6 @@ import can
 import numpy as np
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.logs.frames import FrameBlock, FrameFlag
 from swapcan.simulate import (
     DEFAULT_PLAN,
     Battery,
@@ -20,6 +19,7 @@ from swapcan.simulate import (
     planned_fault,
 )
 from swapcan.simulate.simulated_bus import SimulatedBus
+from typedcan.logs.frames import FrameBlock, FrameFlag
 
 DEFAULT = ", ".join(map(str, DEFAULT_PLAN))
 

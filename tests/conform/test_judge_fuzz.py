@@ -13,8 +13,8 @@ from conform.recorded import block_of, recorded
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Judge, Judgement
 from swapcan.conform.report import to_csv, to_html, to_json, to_junit
-from swapcan.logs.frames import FrameBlock, FrameFlag
-from swapcan.logs.read.blocks import rows_of
+from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.read.blocks import rows_of
 
 FRAMES = 3000
 KNOWN = np.array([message.FRAME_ID for message in PROTOCOL.messages], np.uint32)

@@ -18,7 +18,7 @@ from swapcan.conform.live.reactions.troubled_commands import (
     WRONG_CHECKSUM,
 )
 from swapcan.conform.live.scenarios import SCENARIOS
-from swapcan.logs.read import open_log
+from typedcan.logs.read import open_log
 
 OPEN, PRECHARGE, CLOSED, FAILED = range(4)
 ON, OFF = 1, 2

@@ -13,7 +13,6 @@ from conform.recorded import recorded, written
 from swapcan.conform import Judge, Judgement, Status, judge_log
 from swapcan.conform.findings import KEPT
 from swapcan.conform.rules import timing
-from swapcan.logs.read import open_log
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST1,
@@ -30,6 +29,7 @@ from swapcan.messages import (
     C2B_ACStatus,
     V2B_RQData,
 )
+from typedcan.logs.read import open_log
 from typedcan.wire.message import Message
 
 CASES = Path(__file__).with_name("cases")

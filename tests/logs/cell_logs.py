@@ -10,12 +10,12 @@ import numpy as np
 
 import swapcan
 from swapcan.log_protocol import OWN
-from swapcan.logs.cells import CellColumns, CycleTable
-from swapcan.logs.columns import DecodedBlock
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock, FrameFlag
-from swapcan.logs.plan import Mode
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
+from typedcan.logs.cells import CellColumns, CycleTable
+from typedcan.logs.columns import DecodedBlock
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.plan import Mode
 from typedcan.wire.message import Message, SignalState
 
 INVALID = SignalState.INVALID

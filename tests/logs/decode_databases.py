@@ -16,8 +16,8 @@ from cantools.database.errors import Error
 from cantools.typechecking import Choices
 from hypothesis import strategies as st
 
-from swapcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.databases.database import Labels, Places, to_protocol
+from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.model import protocol as model
 
 NO_FLAGS = FrameFlag(0)

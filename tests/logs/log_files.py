@@ -12,7 +12,7 @@ import can
 import pytest
 from numpy.typing import NDArray
 
-from swapcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.frames import FrameBlock, FrameFlag
 
 START = 1_700_000_000.0
 """When the logs begin, in seconds since 1970."""

@@ -16,10 +16,10 @@ from logs.table_logs import decoded, traffic, write_frames
 import swapcan
 from swapcan._generated import DIGEST
 from swapcan.logs import tables
-from swapcan.logs.database import DbcError
-from swapcan.logs.pipeline import Options
-from swapcan.logs.plan import Mode, SelectionError
 from swapcan.messages import B2V_ST2, MESSAGES
+from typedcan.logs.database import DbcError
+from typedcan.logs.pipeline import Options
+from typedcan.logs.plan import Mode, SelectionError
 from typedcan.wire.message import SignalState
 
 _DBC = Path(__file__).parents[1] / "fixtures" / "dbc"

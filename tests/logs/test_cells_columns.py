@@ -19,10 +19,10 @@ from logs.cell_logs import (
 )
 
 from swapcan.log_protocol import CELLS, OWN
-from swapcan.logs.cells import CellColumns, CellsError
-from swapcan.logs.columns import State
-from swapcan.logs.frames import FrameBlock, FrameFlag
-from swapcan.logs.plan import Mode
+from typedcan.logs.cells import CellColumns, CellsError
+from typedcan.logs.columns import State
+from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.plan import Mode
 
 TOLD = Sent(0.0, totals(2, 8))
 BY_CSC: dict[int, list[Reading]] = {1: [3.1, 3.2, 3.3, 3.4], 2: [3.5, 3.6, 3.7, 3.8]}

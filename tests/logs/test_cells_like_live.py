@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from logs.cell_logs import INVALID, Reading, Sent, put_together, totals, ucell
 
 from swapcan.log_protocol import CELLS
-from swapcan.logs.cells import CellColumns, CycleCounts
 from swapcan.messages import B2V_BattInfo2
+from typedcan.logs.cells import CellColumns, CycleCounts
 from typedcan.wire.message import SignalState
 
 transfer: Any = pytest.importorskip(

@@ -19,13 +19,13 @@ from logs.table_logs import START, traffic, write_frames
 import swapcan
 from swapcan.log_protocol import OWN
 from swapcan.logs import tables
-from swapcan.logs.checks import Checks, Faults
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameFlag
-from swapcan.logs.pipeline import Options
-from swapcan.logs.read import open_log
 from swapcan.messages import B2V_ST1, B2V_ST2, BSU_BMS_0, MESSAGES, V2B_CMD, B2V_BattInfo2
 from swapcan.wire import Receiver
+from typedcan.logs.checks import Checks, Faults
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameFlag
+from typedcan.logs.pipeline import Options
+from typedcan.logs.read import open_log
 from typedcan.wire.link import Fault, Received
 
 

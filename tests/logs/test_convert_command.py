@@ -21,11 +21,11 @@ import swapcan
 from swapcan import cli
 from swapcan.commands import convert, log_options
 from swapcan.logs import tables
-from swapcan.logs.pipeline import Layout, Options
-from swapcan.logs.plan import Mode
-from swapcan.logs.progress import Progress
-from swapcan.logs.raster import raster_step
 from swapcan.messages import B2V_ST1, B2V_ST2, MESSAGES
+from typedcan.logs.pipeline import Layout, Options
+from typedcan.logs.plan import Mode
+from typedcan.logs.progress import Progress
+from typedcan.logs.raster import raster_step
 
 _DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"
 _OTHER = Path(__file__).parents[1] / "fixtures" / "dbc" / "motorola.dbc"

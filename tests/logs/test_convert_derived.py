@@ -10,10 +10,10 @@ import pyarrow.parquet as pq
 from logs.table_logs import traffic, write_frames
 
 from swapcan.logs import convert_logs
-from swapcan.logs.columns import DecodedBlock
-from swapcan.logs.pipeline import Options
-from swapcan.logs.protocol import Protocol
-from swapcan.logs.shapes import Batch, Shape
+from typedcan.logs.columns import DecodedBlock
+from typedcan.logs.pipeline import Options
+from typedcan.logs.protocol import Protocol
+from typedcan.logs.shapes import Batch, Shape
 
 
 class _Busiest(Shape):

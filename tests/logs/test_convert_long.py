@@ -13,8 +13,8 @@ from logs.table_logs import START, decoded, own_database, traffic, write_frames
 
 import swapcan
 from swapcan.logs import tables
-from swapcan.logs.pipeline import Layout, Options
 from swapcan.messages import B2V_ST2, MESSAGES
+from typedcan.logs.pipeline import Layout, Options
 from typedcan.wire.message import SignalState
 
 _DBC = Path(__file__).parents[1] / "fixtures" / "dbc"

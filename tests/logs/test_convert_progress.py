@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from swapcan.logs.progress import Progress, bar
+from typedcan.logs.progress import Progress, bar
 
 
 class _Terminal(io.StringIO):

@@ -12,10 +12,11 @@ import pytest
 from logs.table_logs import START, own_database, traffic, write_frames
 
 import swapcan
-from swapcan.logs import pipeline, tables
-from swapcan.logs.pipeline import Layout, Options
-from swapcan.logs.raster import RasterError, raster_step
+from swapcan.logs import tables
 from swapcan.messages import B2V_RQ, B2V_ST2, MESSAGES
+from typedcan.logs import pipeline
+from typedcan.logs.pipeline import Layout, Options
+from typedcan.logs.raster import RasterError, raster_step
 
 _STEP = Fraction(1, 10)
 

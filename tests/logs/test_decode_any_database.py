@@ -21,9 +21,9 @@ from logs.decode_databases import (
     traffic,
 )
 
-from swapcan.logs.columns import Column, MessageColumns
-from swapcan.logs.decode import Decoder
-from swapcan.logs.plan import Mode
+from typedcan.logs.columns import Column, MessageColumns
+from typedcan.logs.decode import Decoder
+from typedcan.logs.plan import Mode
 
 
 def assert_same(column: Column, row: int, expected: Any) -> None:

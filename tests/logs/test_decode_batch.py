@@ -16,8 +16,8 @@ from logs.table_logs import START, decoded, traffic, write_frames
 
 import swapcan
 from swapcan.logs import Mode, Options, decode_batch, frame_batches, schemas, tables
-from swapcan.logs.batch import FRAME_SCHEMA, BatchError, DamagedLogError
 from swapcan.messages import B2V_ST2, MESSAGES
+from typedcan.logs.batch import FRAME_SCHEMA, BatchError, DamagedLogError
 
 
 @pytest.fixture(scope="module")

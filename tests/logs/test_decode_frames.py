@@ -8,10 +8,10 @@ from cantools.database.can import Message, Signal
 from cantools.database.conversion import BaseConversion
 from logs.decode_databases import Frame, block_of, model_of
 
-from swapcan.logs.columns import Counts, State
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameFlag
-from swapcan.logs.plan import Mode, ReservedCodeError, SelectionError
+from typedcan.logs.columns import Counts, State
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameFlag
+from typedcan.logs.plan import Mode, ReservedCodeError, SelectionError
 
 EXTENDED, REMOTE, ERROR = FrameFlag.EXTENDED, FrameFlag.REMOTE, FrameFlag.ERROR
 

@@ -9,8 +9,8 @@ from cantools.database.can import Message, Signal
 from cantools.database.conversion import BaseConversion
 from logs.decode_databases import Frame, block_of, model_of
 
-from swapcan.logs.columns import Column, State
-from swapcan.logs.decode import Decoder
+from typedcan.logs.columns import Column, State
+from typedcan.logs.decode import Decoder
 from typedcan.model import protocol as model
 
 

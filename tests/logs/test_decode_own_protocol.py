@@ -14,11 +14,11 @@ from logs.decode_databases import Frame, block_of, payload
 
 import swapcan
 from swapcan.log_protocol import OWN
-from swapcan.logs.columns import Column, State
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameFlag
-from swapcan.logs.plan import Mode
 from swapcan.messages import MESSAGES
+from typedcan.logs.columns import Column, State
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameFlag
+from typedcan.logs.plan import Mode
 from typedcan.wire.message import SignalState
 
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from logs.plot_logs import data_of
 
-from swapcan.logs.plot.html import to_html
-from swapcan.logs.plot.model import Band, Curve, Heat, Mark, Plot
+from typedcan.logs.plot.html import to_html
+from typedcan.logs.plot.model import Band, Curve, Heat, Mark, Plot
 
 HOSTILE = "</script><script>alert(1)</script><!-- \u2028 &amp; \"'`${x}"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from swapcan.log_protocol import OWN
-from swapcan.logs.plan import SelectionError
-from swapcan.logs.plot.names import find_signals
+from typedcan.logs.plan import SelectionError
+from typedcan.logs.plot.names import find_signals
 
 
 def found(*names: str) -> list[str]:

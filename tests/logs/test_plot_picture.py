@@ -12,8 +12,8 @@ import pytest
 from logs.cell_logs import Reading, cycle, totals
 from logs.plot_logs import plot, write
 
-from swapcan.logs.plot.picture import PictureError
 from swapcan.messages import B2V_ST1, B2V_ST2, BmsState
+from typedcan.logs.plot.picture import PictureError
 
 
 def drive(path: Path) -> Path:

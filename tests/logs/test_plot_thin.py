@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from swapcan.logs.plot.thin import COLUMNS, Points, SpanList, begins_anew, column_length
+from typedcan.logs.plot.thin import COLUMNS, Points, SpanList, begins_anew, column_length
 
 
 def noisy(count: int, seed: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -9,8 +9,8 @@ import pytest
 from logs.log_files import mixed_frames, row_of, rows_by_python_can, rows_in, write_log
 from logs.text_log_files import agreed, read_text, sound_rows
 
-from swapcan.logs.frames import FrameFlag as Flag
-from swapcan.logs.read.asc import AscSource
+from typedcan.logs.frames import FrameFlag as Flag
+from typedcan.logs.read.asc import AscSource
 
 VECTOR = b"""date Sat Sep 30 10:06:13.191 AM 2017
 base hex  timestamps absolute

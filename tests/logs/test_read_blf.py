@@ -22,8 +22,8 @@ from logs.blf_bytes import (
 )
 from logs.log_files import Row, mixed_frames, row_of, rows_by_python_can, rows_in, write_log
 
-from swapcan.logs.read import inflate
-from swapcan.logs.read.blf import BlfSource
+from typedcan.logs.read import inflate
+from typedcan.logs.read.blf import BlfSource
 
 LATEST = 2**64 - 1
 EXTENDED = 0x8000_0000

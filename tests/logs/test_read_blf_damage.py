@@ -22,8 +22,8 @@ from logs.blf_bytes import (
 )
 from logs.log_files import Row, mixed_frames, rows_by_python_can, rows_in, write_log
 
-from swapcan.logs.read.blf import BlfSource
-from swapcan.logs.read.source import Damage
+from typedcan.logs.read.blf import BlfSource
+from typedcan.logs.read.source import Damage
 
 PLACES = 200
 OBJECT_SIZES = {"error": 64, "fd": 116, "other": 48}  # as python-can writes them, no padding

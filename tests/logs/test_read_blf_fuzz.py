@@ -22,7 +22,7 @@ from logs.blf_bytes import (
 )
 from logs.log_files import Row, row_of, rows_in
 
-from swapcan.logs.read.blf import BlfSource
+from typedcan.logs.read.blf import BlfSource
 
 QUICK = settings(
     max_examples=150,

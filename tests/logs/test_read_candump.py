@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from logs.log_files import mixed_frames, rows_by_python_can, write_log
 from logs.text_log_files import agreed, read_text, sound_rows
 
-from swapcan.logs.frames import FrameFlag as Flag
+from typedcan.logs.frames import FrameFlag as Flag
 
 
 @pytest.mark.parametrize("kinds", ["classic", "classic remote", "fd", "classic remote error fd"])

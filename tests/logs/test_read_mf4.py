@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from logs.log_files import Row, mixed_frames, row_of, rows_by_python_can, rows_in, write_log
 from numpy.typing import NDArray
 
-from swapcan.logs.read.mf4 import Mf4Source
-from swapcan.logs.read.source import Damage
+from typedcan.logs.read.mf4 import Mf4Source
+from typedcan.logs.read.source import Damage
 
 asammdf = pytest.importorskip("asammdf", reason="the extra mf4 is not installed")
 
@@ -134,8 +134,8 @@ def test_groups_are_merged_in_the_order_of_python_can(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, groups: list[list[float]], block_size: int
 ) -> None:
     """Also where times repeat, run backwards, or fall into different chunks."""
-    monkeypatch.setattr("swapcan.logs.read.mf4._LEAST_CHUNK", 3)
-    monkeypatch.setattr("swapcan.logs.read.mf4._CHUNK_BYTES", 1)
+    monkeypatch.setattr("typedcan.logs.read.mf4._LEAST_CHUNK", 3)
+    monkeypatch.setattr("typedcan.logs.read.mf4._CHUNK_BYTES", 1)
     columns = [
         columns_of(times, 100 * number, BusChannel=np.full(len(times), number, np.uint8))
         for number, times in enumerate(groups)
@@ -221,7 +221,7 @@ FUZZ = """
 import random, sys
 from pathlib import Path
 from logs.log_files import mixed_frames, rows_in, write_log
-from swapcan.logs.read.mf4 import Mf4Source
+from typedcan.logs.read.mf4 import Mf4Source
 folder = Path(sys.argv[1])
 content = write_log(folder / "bus.mf4", mixed_frames(200), compression_level=0).read_bytes()
 index = content.index(b"##DG")

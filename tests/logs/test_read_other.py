@@ -18,7 +18,7 @@ from logs.log_files import (
     write_log,
 )
 
-from swapcan.logs.read import open_log
+from typedcan.logs.read import open_log
 from typedcan.model.errors import TypedcanError
 
 

@@ -11,7 +11,7 @@ from can.io.trc import TRCFileVersion, TRCWriter
 from logs.log_files import mixed_frames, rows_by_python_can, write_log
 from logs.text_log_files import agreed, read_text, sound_rows
 
-from swapcan.logs.frames import FrameFlag as Flag
+from typedcan.logs.frames import FrameFlag as Flag
 
 START = b";$STARTTIME=43008.920986006946\n"
 DAY = 24 * 60 * 60

@@ -14,12 +14,12 @@ from logs.log_files import NEEDS_ASAMMDF
 from logs.table_logs import START, traffic, write_frames
 
 from swapcan.logs import convert_logs, tables
-from swapcan.logs.pipeline import Layout, Options
-from swapcan.logs.plan import Mode
-from swapcan.logs.read import LogError
-from swapcan.logs.write import sink
-from swapcan.logs.write.target import OutputError
 from swapcan.messages import MESSAGES
+from typedcan.logs.pipeline import Layout, Options
+from typedcan.logs.plan import Mode
+from typedcan.logs.read import LogError
+from typedcan.logs.write import sink
+from typedcan.logs.write.target import OutputError
 
 _ONE = Options(messages=("B2V_ST2",))
 

@@ -7,12 +7,12 @@ from pathlib import Path
 import can
 from logs.log_files import Row, rows_by_python_can, rows_in, write_log
 
-from swapcan.logs.read.asc import AscSource
-from swapcan.logs.read.candump import CandumpSource
-from swapcan.logs.read.csv import CsvSource
-from swapcan.logs.read.source import Damage
-from swapcan.logs.read.text import TextSource
-from swapcan.logs.read.trc import TrcSource
+from typedcan.logs.read.asc import AscSource
+from typedcan.logs.read.candump import CandumpSource
+from typedcan.logs.read.csv import CsvSource
+from typedcan.logs.read.source import Damage
+from typedcan.logs.read.text import TextSource
+from typedcan.logs.read.trc import TrcSource
 
 TEXT_SUFFIXES = [".log", ".asc", ".csv", ".trc"]
 

@@ -12,7 +12,7 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, Judgement, Rule, judge_log
 from swapcan.conform.live.scenarios import SCENARIOS, scenarios_of
 from swapcan.console import CommandError
-from swapcan.logs.window import Moment
+from typedcan.logs.window import Moment
 
 PACK = "BMU"
 """Whom scenarios judge."""

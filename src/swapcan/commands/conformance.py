@@ -13,8 +13,8 @@ from swapcan.commands.conform_lists import list_rules, list_scenarios, list_tole
 from swapcan.commands.conform_reports import Judged, Reports
 from swapcan.conform import Judgement, Severity, Status, Verdict
 from swapcan.console import CommandError, note
-from swapcan.logs.progress import Progress
-from swapcan.logs.window import moment
+from typedcan.logs.progress import Progress
+from typedcan.logs.window import moment
 
 CONFORMS, VIOLATES, NOT_JUDGED = 0, 1, 2
 """Exit statuses."""

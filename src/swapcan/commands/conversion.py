@@ -9,12 +9,12 @@ from pathlib import Path
 
 from swapcan.console import CommandError, note, say
 from swapcan.log_tables import convert_logs
-from swapcan.logs.cells.arrow import CellTables
-from swapcan.logs.pipeline import Layout, Options
-from swapcan.logs.plan import Mode
-from swapcan.logs.progress import Progress
-from swapcan.logs.raster import raster_step
-from swapcan.logs.window import moment
+from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.pipeline import Layout, Options
+from typedcan.logs.plan import Mode
+from typedcan.logs.progress import Progress
+from typedcan.logs.raster import raster_step
+from typedcan.logs.window import moment
 from typedcan.shell.printing import printable_json
 
 DAMAGED = 3

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from swapcan.conform.series import Series
-from swapcan.logs.cells.cycles import CycleTable
-from swapcan.logs.frames import FrameBlock
+from typedcan.logs.cells.cycles import CycleTable
+from typedcan.logs.frames import FrameBlock
 from typedcan.wire.message import Message
 
 

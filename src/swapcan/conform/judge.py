@@ -21,12 +21,12 @@ from swapcan.conform.registry import RULES
 from swapcan.conform.rule import Rule
 from swapcan.conform.series import Series
 from swapcan.log_protocol import CELLS, OWN, PROBES
-from swapcan.logs.cells.cycles import CellColumns, CycleTable
-from swapcan.logs.checks import checksums_right, has_checksum, rows_where
-from swapcan.logs.columns import MessageColumns
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock
-from swapcan.logs.plan import Mode
+from typedcan.logs.cells.cycles import CellColumns, CycleTable
+from typedcan.logs.checks import checksums_right, has_checksum, rows_where
+from typedcan.logs.columns import MessageColumns
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameBlock
+from typedcan.logs.plan import Mode
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.message import Message
 

@@ -11,8 +11,8 @@ from swapcan.conform.judge import Judge
 from swapcan.conform.judgement import Judgement
 from swapcan.conform.registry import RULES
 from swapcan.conform.rule import Rule
-from swapcan.logs.read import open_log
-from swapcan.logs.window import Moment, within
+from typedcan.logs.read import open_log
+from typedcan.logs.window import Moment, within
 
 _BLOCK = 1 << 17
 """Frames in a chunk: enough that a message's share of it is worth a call per rule."""
@@ -28,7 +28,7 @@ def judge_log(
     end: Moment | None = None,
     watch: Callable[[int, int], None] | None = None,
 ) -> Judgement:
-    """Judge a log of any kind that `swapcan.logs.read.open_log` reads.
+    """Judge a log of any kind that `typedcan.logs.read.open_log` reads.
 
     Parameters
     ----------

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.before import Before
-from swapcan.logs.columns import MessageColumns
+from typedcan.logs.columns import MessageColumns
 from typedcan.wire.message import Message
 
 

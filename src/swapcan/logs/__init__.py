@@ -10,26 +10,26 @@ from typing import Any
 
 # The names, with their types, stand in __init__.pyi too.
 _HOMES = {
-    "BatchError": ".batch",
-    "CellTables": ".cells.arrow",
-    "Damage": ".read",
-    "DamagedLogError": ".batch",
-    "FRAME_SCHEMA": ".batch",
-    "Layout": ".pipeline",
-    "LogError": ".read",
-    "LogSource": ".read",
-    "Mode": ".plan",
-    "Options": ".pipeline",
-    "Progress": ".progress",
-    "Shape": ".shapes",
-    "Summary": ".summary",
-    "Target": ".write.target",
+    "BatchError": "typedcan.logs.batch",
+    "CellTables": "typedcan.logs.cells.arrow",
+    "Damage": "typedcan.logs.read",
+    "DamagedLogError": "typedcan.logs.batch",
+    "FRAME_SCHEMA": "typedcan.logs.batch",
+    "Layout": "typedcan.logs.pipeline",
+    "LogError": "typedcan.logs.read",
+    "LogSource": "typedcan.logs.read",
+    "Mode": "typedcan.logs.plan",
+    "Options": "typedcan.logs.pipeline",
+    "Progress": "typedcan.logs.progress",
+    "Shape": "typedcan.logs.shapes",
+    "Summary": "typedcan.logs.summary",
+    "Target": "typedcan.logs.write.target",
     "convert_logs": "swapcan.log_tables",
     "decode_batch": "swapcan.log_tables",
-    "frame_batches": ".batch",
-    "moment": ".window",
-    "open_log": ".read",
-    "raster_step": ".raster",
+    "frame_batches": "typedcan.logs.batch",
+    "moment": "typedcan.logs.window",
+    "open_log": "typedcan.logs.read",
+    "raster_step": "typedcan.logs.raster",
     "schemas": "swapcan.log_tables",
     "tables": "swapcan.log_tables",
 }
@@ -39,7 +39,7 @@ def __getattr__(name: str) -> Any:
     """A public name, from the module that has it."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(_HOMES[name], __name__), name)
+    value = getattr(import_module(_HOMES[name]), name)
     globals()[name] = value
     return value
 

@@ -1,20 +1,15 @@
 from swapcan.log_tables import convert_logs, decode_batch, schemas, tables
-from swapcan.logs.batch import (
-    FRAME_SCHEMA,
-    BatchError,
-    DamagedLogError,
-    frame_batches,
-)
-from swapcan.logs.cells.arrow import CellTables
-from swapcan.logs.pipeline import Layout, Options
-from swapcan.logs.plan import Mode
-from swapcan.logs.progress import Progress
-from swapcan.logs.raster import raster_step
-from swapcan.logs.read import Damage, LogError, LogSource, open_log
-from swapcan.logs.shapes import Shape
-from swapcan.logs.summary import Summary
-from swapcan.logs.window import moment
-from swapcan.logs.write.target import Target
+from typedcan.logs.batch import FRAME_SCHEMA, BatchError, DamagedLogError, frame_batches
+from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.pipeline import Layout, Options
+from typedcan.logs.plan import Mode
+from typedcan.logs.progress import Progress
+from typedcan.logs.raster import raster_step
+from typedcan.logs.read import Damage, LogError, LogSource, open_log
+from typedcan.logs.shapes import Shape
+from typedcan.logs.summary import Summary
+from typedcan.logs.window import moment
+from typedcan.logs.write.target import Target
 
 __all__ = [
     "FRAME_SCHEMA",

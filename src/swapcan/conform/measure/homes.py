@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.wire.message import Message
 
 _KIND = np.uint8(FrameFlag.EXTENDED | FrameFlag.FD | FrameFlag.REMOTE | FrameFlag.ERROR)

@@ -9,7 +9,7 @@ import numpy as np
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.measure.frame_bits import Bits, frame_bits
 from swapcan.conform.measure.traffic import Channel, Traffic
-from swapcan.logs.frames import FrameFlag
+from typedcan.logs.frames import FrameFlag
 
 BIT_RATE = 250_000
 """Bit/s, 4.2.2."""

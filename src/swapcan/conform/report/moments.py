@@ -17,13 +17,13 @@ from swapcan.conform.report.sources import Source, sources_of
 from swapcan.conform.report.thinned import Points
 from swapcan.conform.rule import Severity
 from swapcan.log_protocol import OWN
-from swapcan.logs.checks import rows_where
-from swapcan.logs.columns import Column, MessageColumns
-from swapcan.logs.decode import Decoder
-from swapcan.logs.frames import FrameBlock
-from swapcan.logs.plan import Mode
-from swapcan.logs.read import open_log
-from swapcan.logs.read.blocks import rows_of
+from typedcan.logs.checks import rows_where
+from typedcan.logs.columns import Column, MessageColumns
+from typedcan.logs.decode import Decoder
+from typedcan.logs.frames import FrameBlock
+from typedcan.logs.plan import Mode
+from typedcan.logs.read import open_log
+from typedcan.logs.read.blocks import rows_of
 from typedcan.wire.message import Message
 
 _LONGEST = 30.0

@@ -14,8 +14,8 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.logs.checks import PERIODS
 from swapcan.messages import B2V_ST0, V2B_CMD, B2V_Temp, B2V_Ucell
+from typedcan.logs.checks import PERIODS
 from typedcan.wire.message import Field, FilledField, Message, SignalState
 
 SECONDS = Tolerance(

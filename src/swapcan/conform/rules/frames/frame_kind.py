@@ -11,7 +11,7 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.odd import judge_odd
 from swapcan.conform.text import Text
-from swapcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.wire.message import Message
 
 _ODD = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)

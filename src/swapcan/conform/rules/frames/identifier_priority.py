@@ -13,7 +13,7 @@ from swapcan.conform.rules.frames.identifiers import PRIORITY_SHIFT, has_other_p
 from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.odd import judge_odd
 from swapcan.conform.text import Text
-from swapcan.logs.frames import FrameBlock
+from typedcan.logs.frames import FrameBlock
 from typedcan.wire.message import Message
 
 _REST = (1 << PRIORITY_SHIFT) - 1

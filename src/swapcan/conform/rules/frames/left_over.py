@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.wire.message import Message
 
 EXTENDED = 1 << 31

@@ -12,7 +12,7 @@ from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.sightings import Sighting
 from swapcan.conform.text import Text
-from swapcan.logs.frames import FrameFlag
+from typedcan.logs.frames import FrameFlag
 from typedcan.wire.message import Message
 
 _OTHER_KINDS = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)

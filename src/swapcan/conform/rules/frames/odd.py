@@ -12,8 +12,8 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.series import Series
-from swapcan.logs.columns import MessageColumns
-from swapcan.logs.frames import FrameBlock
+from typedcan.logs.columns import MessageColumns
+from typedcan.logs.frames import FrameBlock
 from typedcan.wire.message import Message
 
 Describe = Callable[[type[Message], FrameBlock, int], Said]

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
-from swapcan.logs.cells.cycles import CycleTable
-from swapcan.logs.columns import State
-from swapcan.logs.grouped import Readings
+from typedcan.logs.cells.cycles import CycleTable
+from typedcan.logs.columns import State
+from typedcan.logs.grouped import Readings
 
 Numbers = NDArray[np.float64]
 

@@ -17,8 +17,8 @@ from swapcan.conform.rules.pack.runs import ROUNDING, Runs
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.log_protocol import CELLS, PROBES
-from swapcan.logs.grouped import Readings
 from swapcan.messages import B2V_ST4, B2V_ST5, B2V_ST6
+from typedcan.logs.grouped import Readings
 from typedcan.wire.message import Message
 
 

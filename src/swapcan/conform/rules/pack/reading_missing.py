@@ -13,9 +13,9 @@ from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.logs.cells.cycles import CycleTable
-from swapcan.logs.columns import State
 from swapcan.messages import B2V_Temp, B2V_Ucell
+from typedcan.logs.cells.cycles import CycleTable
+from typedcan.logs.columns import State
 
 SECONDS = Tolerance(
     name="reading-missing.seconds",

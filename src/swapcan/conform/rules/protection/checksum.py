@@ -12,7 +12,7 @@ from swapcan.conform.findings import Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.logs.checks import has_checksum
+from typedcan.logs.checks import has_checksum
 from typedcan.wire.protect import STANDARD_ALGORITHMS, expected_checksum
 
 _PROTECTED = tuple(message for message in PROTOCOL.messages if has_checksum(message.MODEL))

@@ -14,7 +14,7 @@ from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
-from swapcan.logs.checks import PERIODS
+from typedcan.logs.checks import PERIODS
 from typedcan.wire.message import Counter, Message
 
 _COUNTING = tuple(

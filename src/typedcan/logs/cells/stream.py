@@ -1,0 +1,188 @@
+"""The frames of one message on one channel, from block to block."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from typedcan.logs.cells.assembly import Assembly, Complete, CycleCounts
+from typedcan.logs.cells.readings import ReadingFrames, no_frames
+from typedcan.logs.cells.shape import Shape, TotalsShape, frames_in, seen_shape
+from typedcan.logs.grouped import KEY_BITS
+from typedcan.transfer.shape import Totals
+
+_WATCHED = 2.0
+"""Seconds that are watched for what a cycle has."""
+
+_WATCHED_FRAMES = 1 << 16
+"""More frames are never watched, whatever their times."""
+
+Layout = tuple[tuple[int, int], ...]
+"""CSCs, each with the number of its readings, ascending."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cycles:
+    """Complete cycles of one layout: times, readings and their states, a row per cycle."""
+
+    layout: Layout
+    timestamp: NDArray[np.float64]
+    values: NDArray[np.float64]
+    state: NDArray[np.uint8]
+
+
+class Stream:
+    """Holds what is not complete yet, and finds out what a cycle has.
+
+    Parameters
+    ----------
+    width
+        Readings in a frame.
+    period
+        Seconds between cycles.
+    assume_seen
+        Whether to watch what comes while there are no totals.
+    """
+
+    def __init__(self, width: int, period: float, *, assume_seen: bool) -> None:
+        self._width = width
+        self._period = period
+        self._assume_seen = assume_seen
+        self._told: Shape | None = None
+        self._assembly: Assembly | None = None
+        self._held = no_frames(width)
+        self._next = 0  # of the rows held: before are those that pieces point to
+        self._stop = 0  # of the rows held: from here on they are still to be taken
+        self._unassigned = 0
+
+    @property
+    def counts(self) -> CycleCounts:
+        """What became of the frames."""
+        counts = CycleCounts(unassigned=self._unassigned)
+        if self._assembly is not None:
+            counts.add(self._assembly.counts)
+        return counts
+
+    def hold(self, frames: ReadingFrames) -> None:
+        """Keep the frames of a block, to be taken next."""
+        self._drop()
+        self._held = self._held.followed_by(frames)
+
+    def take(self, count: int) -> list[Cycles]:
+        """Take so many of the frames that are held, in their order."""
+        self._stop += count
+        found: list[Cycles] = []
+        while self._next < self._stop and self._ready(final=False):
+            found += self._run()
+        return found
+
+    def tell(self, totals: Totals, at: float) -> None:
+        """Note other totals, at that time."""
+        # A pack that counts none has not counted yet.
+        self._told = TotalsShape(totals) if totals.groups and totals.count else None
+        if self._told is not None:
+            self._begin(self._told, at)
+        elif self._assembly is not None:
+            self._assembly.forget(at)
+
+    def finish(self, end: float) -> list[Cycles]:
+        """What is left; the log ends at that time."""
+        found: list[Cycles] = []
+        while self._next < self._stop and self._ready(final=True):
+            found += self._run()
+        if self._assembly is not None and not self._assembly.forgotten:
+            self._assembly.expire(end)
+        return found
+
+    def _ready(self, *, final: bool) -> bool:
+        """Whether it is known what a cycle has; ``final``: no more frames will come."""
+        if self._assembly is not None and not self._assembly.forgotten:
+            return True
+        if not self._assume_seen:
+            self._unassigned += self._stop - self._next
+            self._next = self._stop
+            return False
+        frames = self._held
+        part = slice(self._next, self._stop)
+        with_values = np.flatnonzero(frames.highest[part] > 0)
+        begin = self._next + int(with_values[0]) if len(with_values) else self._stop
+        self._unassigned += begin - self._next
+        self._next = begin
+        later = frames.time[begin : self._stop] >= frames.time[begin : begin + 1] + _WATCHED
+        if not (final or later.any() or self._stop - begin >= _WATCHED_FRAMES):
+            return False
+        end = begin + int(later.argmax()) if later.any() else self._stop
+        self._watch(begin, end)
+        return begin < self._stop
+
+    def _watch(self, begin: int, end: int) -> None:
+        if begin == end:
+            return
+        part = slice(begin, end)
+        keys = self._held.key[part]
+        numbers = keys & ((1 << KEY_BITS) - 1)
+        triples = zip(
+            (keys >> KEY_BITS).tolist(),
+            numbers.tolist(),
+            self._held.highest[part].tolist(),
+            strict=True,
+        )
+        self._begin(seen_shape(triples), float(self._held.time[begin]))
+
+    def _begin(self, shape: Shape, at: float) -> None:
+        if self._assembly is None:
+            self._assembly = Assembly(self._width, self._period, shape)
+        else:
+            self._assembly.begin(shape, at)
+
+    def _run(self) -> list[Cycles]:
+        if self._assembly is None:
+            return []
+        self._next, complete = self._assembly.run(self._held, self._next, self._stop)
+        return [self._cycles(each) for each in _joined(complete)]
+
+    def _cycles(self, complete: Complete) -> Cycles:
+        kept: list[int] = []
+        first = 0
+        for _, count in complete.counts:
+            kept.extend(range(first, first + count))
+            first += len(frames_in(count, self._width)) * self._width
+        rows = complete.rows
+        values = self._held.values[rows].reshape(len(rows), -1)
+        state = self._held.state[rows].reshape(len(rows), -1)
+        if len(kept) < values.shape[1]:
+            values, state = values[:, kept], state[:, kept]
+        return Cycles(complete.counts, self._held.time[rows.max(axis=1)], values, state)
+
+    def _drop(self) -> None:
+        """Keep the rows that are still needed."""
+        pieces = {} if self._assembly is None else self._assembly.pieces
+        old = sorted(pieces.values())
+        waiting = np.arange(self._next, len(self._held))
+        rows = np.concatenate([np.array(old, np.int64), waiting])
+        self._held = self._held.rows(rows)
+        places = {row: place for place, row in enumerate(old)}
+        for key, row in pieces.items():
+            pieces[key] = places[row]
+        self._next = len(old)
+        self._stop = len(self._held)
+
+
+def _joined(complete: list[Complete]) -> list[Complete]:
+    """Cycles of one layout that follow each other, as one."""
+    joined: list[Complete] = []
+    group: list[Complete] = []
+    for each in complete:
+        if group and group[0].counts != each.counts:
+            joined.append(_stacked(group))
+            group = []
+        group.append(each)
+    if group:
+        joined.append(_stacked(group))
+    return joined
+
+
+def _stacked(group: list[Complete]) -> Complete:
+    return Complete(group[0].counts, np.concatenate([each.rows for each in group]))

@@ -1,0 +1,243 @@
+"""Length, checksum, alive counter and gaps, a block at a time, as the live runtime sees them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from typedcan.logs.columns import Column, DecodedBlock, MessageColumns
+from typedcan.logs.protocol import Protocol
+from typedcan.model.layout import first_bit, whole_byte
+from typedcan.model.protocol import ByteOrder, Message, Signal
+
+PERIODS = 5
+"""More than so many periods without a frame are a gap."""
+
+
+@dataclass(slots=True)
+class Gaps:
+    """The gaps of one message: how many, and the longest of them in seconds."""
+
+    count: int = 0
+    longest: float = 0.0
+
+    def add(self, other: Gaps) -> None:
+        """Add the gaps of another log."""
+        self.count += other.count
+        self.longest = max(self.longest, other.longest)
+
+
+@dataclass(slots=True)
+class Faults:
+    """What was wrong with the frames of known messages, each by name of the message.
+
+    Parameters
+    ----------
+    length
+        Frames with fewer or more bytes than the message has.
+    checksum
+        Frames with a wrong checksum.
+    counter
+        Frames with a wrong alive counter, as `typedcan.wire.protect.ReceiveCounters` has it.
+    gaps
+        Of messages that are sent periodically: more than `PERIODS` periods without a frame,
+        between two frames or at the end of the log.
+    """
+
+    length: Counter[str] = field(default_factory=Counter[str])
+    checksum: Counter[str] = field(default_factory=Counter[str])
+    counter: Counter[str] = field(default_factory=Counter[str])
+    gaps: dict[str, Gaps] = field(default_factory=dict[str, Gaps])
+
+    def add(self, other: Faults) -> None:
+        """Add the faults of another log."""
+        self.length.update(other.length)
+        self.checksum.update(other.checksum)
+        self.counter.update(other.counter)
+        for name, gaps in other.gaps.items():
+            self.gaps.setdefault(name, Gaps()).add(gaps)
+
+
+@dataclass(frozen=True, slots=True)
+class _Counting:
+    """The alive counter of a message: where it is and how it runs."""
+
+    signal: Signal
+    modulus: int
+    reserved: tuple[int, ...]
+
+
+class Checks:
+    """Checks the decoded frames of one log, block after block.
+
+    Frames with a wrong length or checksum are taken out, since the live runtime refuses them too.
+    Counters and gaps are followed for each channel on its own.
+
+    Parameters
+    ----------
+    protocol
+        The messages; those of databases have no known checksums and counters.
+    keep_faulty
+        Count wrong lengths and checksums, but leave the frames in. Their counters are passed over
+        all the same.
+    """
+
+    def __init__(self, protocol: Protocol, *, keep_faulty: bool = False) -> None:
+        self.faults = Faults()
+        self._checked = protocol.checked
+        self._periods = {
+            name: period
+            for name, period in protocol.periods.items()
+            if name not in protocol.conditional
+        }
+        self._keep_faulty = keep_faulty
+        self._counting = _counters(protocol)
+        self._last_counter: dict[tuple[str, int | str | None], int | None] = {}
+        self._last_time: dict[tuple[str, int | str | None], float] = {}
+        self._end = -np.inf
+
+    def take(self, decoded: DecodedBlock) -> DecodedBlock:
+        """Check a block; what comes back is without the frames that are refused."""
+        messages: dict[str, MessageColumns] = {}
+        counts = decoded.counts
+        self.faults.length.update(counts.too_short)
+        for name, columns in decoded.messages.items():
+            kept = sound = columns
+            good = self._good(self._checked[name], columns) if name in self._checked else None
+            if good is not None:
+                sound = rows_where(columns, good)
+                kept = columns if self._keep_faulty else sound
+                counts.decoded[name] += len(kept) - len(columns)
+            if len(sound):
+                self._follow(name, sound)
+            if len(kept):
+                messages[name] = kept
+            else:
+                del counts.decoded[name]
+        return DecodedBlock(messages, counts)
+
+    def finish(self) -> Faults:
+        """What was found, with the gaps at the end of the log."""
+        for (name, _), last in self._last_time.items():
+            self._gaps(name, np.array([last, self._end]))
+        self._last_time = {}
+        return self.faults
+
+    def _good(self, message: Message, columns: MessageColumns) -> NDArray[np.bool_] | None:
+        """The frames that are not refused; None: all."""
+        good = columns.block.length[columns.rows] == message.length
+        wrong = len(good) - int(np.count_nonzero(good))
+        if wrong:
+            self.faults.length[message.name] += wrong
+        if has_checksum(message):
+            right = checksums_right(message, columns.block.data[columns.rows])
+            wrong = int(np.count_nonzero(good & ~right))
+            if wrong:
+                self.faults.checksum[message.name] += wrong
+            good &= right
+        return None if good.all() else good
+
+    def _follow(self, name: str, columns: MessageColumns) -> None:
+        """Counter and gaps of one message, by channel."""
+        times, channel = columns.timestamp, columns.channel
+        counting, period = self._counting.get(name), self._periods.get(name)
+        self._end = max(self._end, float(times.max()))
+        if counting is None and period is None:
+            return
+        for number in np.unique(channel).tolist():
+            own = slice(None) if (channel == number).all() else np.flatnonzero(channel == number)
+            key = name, columns.block.channels[number]
+            if counting is not None:
+                values = raw_values(counting.signal, columns.block.data[columns.rows[own]])
+                self._counter(key, counting, values)
+            if period is not None:
+                last = self._last_time.get(key, float(times[own][0]))
+                self._gaps(name, np.append(np.float64(last), times[own]))
+                self._last_time[key] = float(times[own][-1])
+
+    def _counter(
+        self, key: tuple[str, int | str | None], counting: _Counting, values: NDArray[np.uint64]
+    ) -> None:
+        numbers = values.astype(np.int64)
+        sound = (numbers < counting.modulus) & ~np.isin(numbers, counting.reserved)
+        last = self._last_counter.get(key)
+        before = np.append(
+            np.int64(-1 if last is None else last), np.where(sound, numbers, -1)[:-1]
+        )
+        follows = (before < 0) | (numbers == (before + 1) % counting.modulus)
+        wrong = int(np.count_nonzero(~(sound & follows)))
+        if wrong:
+            self.faults.counter[key[0]] += wrong
+        self._last_counter[key] = int(numbers[-1]) if sound[-1] else None
+
+    def _gaps(self, name: str, times: NDArray[np.float64]) -> None:
+        steps = np.diff(times)
+        long = steps[steps > PERIODS * self._periods[name]]
+        if len(long):
+            self.faults.gaps.setdefault(name, Gaps()).add(Gaps(len(long), float(long.max())))
+
+
+def has_checksum(message: Message) -> bool:
+    """Whether the protocol states how the checksum of a message is made."""
+    checksum = message.checksum
+    if checksum is None or checksum.algorithm != "xor":
+        return False
+    return whole_byte(message.signal(checksum.signal)) is not None
+
+
+def checksums_right(message: Message, payload: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Which payloads, a row each, carry the checksum of their bytes; needs `has_checksum`."""
+    checksum = message.checksum
+    byte = None if checksum is None else whole_byte(message.signal(checksum.signal))
+    if checksum is None or byte is None:
+        raise ValueError(f"{message.name} has no checksum")
+    covered = payload[:, checksum.first_byte : checksum.last_byte + 1]
+    right: NDArray[np.bool_] = np.bitwise_xor.reduce(covered, axis=1) == payload[:, byte]
+    return right
+
+
+def raw_values(signal: Signal, payload: NDArray[np.uint8]) -> NDArray[np.uint64]:
+    """The raw values of an unsigned signal in the first eight bytes of payloads, a row each."""
+    order, shift = "<u8", signal.start
+    if signal.byte_order is ByteOrder.MOTOROLA:
+        order, shift = ">u8", 64 - first_bit(signal) - signal.length
+    words = np.ascontiguousarray(payload[:, :8]).view(order)[:, 0].astype(np.uint64)
+    return (words >> np.uint64(shift)) & np.uint64((1 << signal.length) - 1)
+
+
+def rows_where(columns: MessageColumns, kept: NDArray[np.bool_]) -> MessageColumns:
+    """The frames of a message that are kept."""
+    return MessageColumns(
+        columns.name,
+        columns.frame_id,
+        columns.is_extended,
+        columns.block,
+        columns.rows[kept],
+        {name: taken(column, kept) for name, column in columns.columns.items()},
+    )
+
+
+def taken(column: Column, rows: NDArray[np.bool_] | NDArray[np.int64]) -> Column:
+    """Some rows of a column, copied."""
+    return Column(
+        column.signal,
+        column.values[rows],
+        None if column.valid is None else column.valid[rows],
+        None if column.state is None else column.state[rows],
+    )
+
+
+def _counters(protocol: Protocol) -> dict[str, _Counting]:
+    """By message, the alive counters that can be followed."""
+    counters: dict[str, _Counting] = {}
+    for message in protocol.messages:
+        checked = protocol.checked.get(message.name)
+        counter = checked.counter if checked else None
+        if counter:
+            signal = message.signal(counter.signal)
+            reserved = tuple(protocol.reserved.get((message.name, counter.signal), ()))
+            counters[message.name] = _Counting(signal, counter.modulus, reserved)
+    return counters

@@ -1,0 +1,167 @@
+"""A message compiled: what to read, how to scale it, and when a signal is there."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from typedcan.logs.columns import SignalInfo, State
+from typedcan.logs.lanes import lane_of
+from typedcan.logs.multiplexing import Multiplexing, multiplexing_of
+from typedcan.logs.scaling import Scaling, factor_of, offset_of, raw_dtype, scaling_of, to_physical
+from typedcan.logs.stacks import ByteLoad, Part, Stack, stacks_of
+from typedcan.logs.wide import Wide
+from typedcan.model.errors import TypedcanError
+from typedcan.model.protocol import Message, Signal
+
+SHORT, LONG = 8, 64
+"""Bytes of a payload row, of CAN and of CAN FD."""
+
+Reserved = Mapping[tuple[str, str], Mapping[int, State]]
+"""By names of message and signal, the raw codes that are no value."""
+
+
+class Mode(Enum):
+    """What the columns hold.
+
+    ``PHYSICAL``: float64 where a signal is scaled or a float, else the smallest integer type;
+    reserved codes are null and have a state. ``RAW``: what is on the wire, in the smallest type.
+    ``LABELS``: raw codes for the signals whose values have labels (and no scaling), to be shown by
+    them; everything else as ``PHYSICAL``.
+    """
+
+    PHYSICAL = "physical"
+    RAW = "raw"
+    LABELS = "labels"
+
+
+class SelectionError(TypedcanError, LookupError):
+    """A message or signal that was asked for is not in the database."""
+
+
+class ReservedCodeError(TypedcanError, ValueError):
+    """A reserved code is none that the signal can have."""
+
+
+@dataclass(frozen=True, slots=True)
+class MessagePlan:
+    """How the frames of one message are decoded.
+
+    Parameters
+    ----------
+    name, frame_id, is_extended, length
+        The message's; the length in bytes.
+    columns
+        The signals asked for that can occur, in the order of the database.
+    loads, stacks, wide
+        What decodes them, and the multiplexers beside.
+    multiplexing
+        Which branches there are.
+    """
+
+    name: str
+    frame_id: int
+    is_extended: bool
+    length: int
+    columns: tuple[SignalInfo, ...]
+    loads: tuple[ByteLoad, ...]
+    stacks: tuple[Stack, ...]
+    wide: tuple[Wide, ...]
+    multiplexing: Multiplexing
+
+
+def plan_of(
+    message: Message,
+    mode: Mode = Mode.PHYSICAL,
+    reserved: Reserved | None = None,
+    wanted: Collection[str] | None = None,
+) -> MessagePlan:
+    """Compile a message.
+
+    Parameters
+    ----------
+    mode
+        What the columns hold.
+    reserved
+        Raw codes that are no value; those of other messages do not matter.
+    wanted
+        Names of the signals to decode, None for all.
+
+    Raises
+    ------
+    SelectionError
+        A wanted signal is not in the message.
+    ReservedCodeError
+        A reserved code is none that the signal can have.
+    """
+    names = [signal.name for signal in message.signals]
+    for name in wanted or ():
+        if name not in names:
+            raise SelectionError(f"{message.name} has no signal {name!r}; it has {names}")
+    multiplexing = multiplexing_of(message)
+    if not multiplexing.decodable:
+        multiplexing = Multiplexing(decodable=False, branches={}, known={})
+    columns: list[SignalInfo] = []
+    parts: list[Part | Wide] = []
+    for signal in message.signals:
+        asked = wanted is None or signal.name in wanted
+        if signal.name in multiplexing.branches and (asked or signal.name in multiplexing.known):
+            codes = _codes(message, signal, reserved or {})
+            info = _info(signal, mode, codes)
+            columns += [info] if asked else []
+            parts.append(_part(message, signal, info, codes if info.scaled else {}))
+    loads, stacks = stacks_of(part for part in parts if isinstance(part, Part))
+    wide = tuple(part for part in parts if isinstance(part, Wide))
+    return MessagePlan(
+        message.name,
+        message.frame_id,
+        message.extended,
+        message.length,
+        tuple(columns),
+        loads,
+        stacks,
+        wide,
+        multiplexing,
+    )
+
+
+def _codes(message: Message, signal: Signal, reserved: Reserved) -> Mapping[int, State]:
+    codes = reserved.get((message.name, signal.name), {})
+    if codes and not signal.is_float:
+        low, high = signal.raw_limits
+        for code in codes:
+            if not low <= code <= high:
+                raise ReservedCodeError(
+                    f"{message.name}.{signal.name}: raw value {code} is given as reserved, "
+                    f"the signal has {low} to {high}"
+                )
+    return codes
+
+
+def _info(signal: Signal, mode: Mode, reserved: Mapping[int, State]) -> SignalInfo:
+    labels = signal.value_table.labels() if signal.value_table else {}
+    factor, offset = factor_of(signal), offset_of(signal)
+    plain = factor == 1 and offset == 0 and not signal.is_float
+    encoded = mode is Mode.LABELS and plain and not labels.keys() <= reserved.keys()
+    return SignalInfo(
+        name=signal.name,
+        unit=signal.unit,
+        factor=factor,
+        offset=offset,
+        scaled=mode is not Mode.RAW and not encoded,
+        labels=labels,
+        encoded=encoded,
+    )
+
+
+def _part(
+    message: Message, signal: Signal, info: SignalInfo, reserved: Mapping[int, State]
+) -> Part | Wide:
+    scaling = scaling_of(signal) if info.scaled else Scaling(raw_dtype(signal))
+    lane = lane_of(signal, SHORT if message.length <= SHORT else LONG)
+    if lane is None or not scaling.vector or raw_dtype(signal).kind == "O":
+        factor_and_offset = to_physical(signal) if info.scaled else None
+        return Wide(signal, message.length, scaling.dtype, factor_and_offset, reserved)
+    signed = signal.signed and not signal.is_float
+    return Part(signal.name, lane, signed, raw_dtype(signal), scaling, reserved)

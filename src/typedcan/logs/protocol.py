@@ -1,0 +1,108 @@
+"""What converting needs to know of a protocol: its messages, periods, reserved codes, citations."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from typedcan.logs.columns import State
+from typedcan.logs.grouped import Readings, readings_of
+from typedcan.logs.plan import Reserved
+from typedcan.model import protocol as model
+from typedcan.model.layout import in_bit_order
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Protocol:
+    """The messages that frames are decoded by.
+
+    Parameters
+    ----------
+    name, digest
+        Of the protocol; the digest is empty where a database carries none.
+    messages
+        Of the model, with their signals in the order of their bits.
+    reserved
+        Raw codes that are no value; empty for a database, whose labels may mean anything.
+    references
+        Where in the standard a signal stands, by names of message and signal.
+    periods
+        Seconds between two frames of a message that is sent periodically.
+    conditional
+        The names of those that are sent only while a condition holds: when they end is no gap.
+    checked
+        The messages whose length, checksum and alive counter are known, by name.
+    readings
+        What comes in groups over several frames, and becomes columns of its own.
+    """
+
+    name: str
+    digest: str
+    messages: Sequence[model.Message]
+    reserved: Reserved
+    references: Mapping[tuple[str, str], str]
+    periods: Mapping[str, float]
+    conditional: frozenset[str]
+    checked: Mapping[str, model.Message]
+    readings: tuple[Readings, ...]
+
+
+def known(protocol: model.Protocol, names: Mapping[str, tuple[str, str]] | None = None) -> Protocol:
+    """A protocol of which all is known.
+
+    Parameters
+    ----------
+    names
+        What the tables of its transfers and the columns there are called, by name of the transfer;
+        one without is called as it is.
+    """
+    return replace(
+        read(protocol, protocol.name),
+        digest=protocol.digest,
+        reserved=_reserved(protocol),
+        references={
+            (message.name, signal.name): signal.reference for message, signal in protocol.signals()
+        },
+        conditional=frozenset(
+            message.name
+            for message in protocol.messages
+            if message.period and message.send_type is model.SendType.IF_ACTIVE
+        ),
+        checked={message.name: message for message in protocol.messages},
+        readings=readings_of(protocol, names or {}),
+    )
+
+
+def read(protocol: model.Protocol, name: str) -> Protocol:
+    """A protocol as a database says it, under a name of its own."""
+    return Protocol(
+        name=name,
+        digest=protocol.made_from,
+        messages=[_in_bit_order(message) for message in protocol.messages],
+        reserved={},
+        references={},
+        periods={each.name: each.period / 1000 for each in protocol.messages if each.period},
+        conditional=frozenset(),
+        checked={},
+        readings=(),
+    )
+
+
+def same(database: Protocol, own: Protocol) -> Protocol:
+    """What is known of a protocol, with the messages, units and labels of a database of it."""
+    return replace(own, messages=database.messages)
+
+
+def _in_bit_order(message: model.Message) -> model.Message:
+    return replace(message, signals=tuple(in_bit_order(message.signals)))
+
+
+def _reserved(protocol: model.Protocol) -> Reserved:
+    """By names of message and signal, the raw codes that are no value."""
+    found: dict[tuple[str, str], dict[int, State]] = {}
+    for message, signal in protocol.signals():
+        pairs = ((signal.invalid_code, State.INVALID), (signal.abnormal_code, State.ABNORMAL))
+        codes = {code: state for code, state in pairs if code is not None}
+        if codes and not signal.is_float:
+            found[message.name, signal.name] = codes
+    return found

@@ -1,0 +1,93 @@
+"""BLF logs: containers are inflated whole, and their frames taken out a column at a time."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import cast
+
+from can.io.blf import TSystemTime, systemtime_to_timestamp
+
+from typedcan.logs.frames import FrameBlock
+from typedcan.logs.read.blf_containers import BrokenLog, batches, containers
+from typedcan.logs.read.blf_stream import ObjectStream
+from typedcan.logs.read.blocks import reblock
+from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogSource
+
+_HEADER = struct.Struct("<4sL8xQ16x8H16x")  # signature, header size, file size, start
+_BATCH = 2**19
+"""Bytes that are looked through together: few calls for each, and they stay in the cache."""
+
+
+class BlfSource(LogSource):
+    """A BLF log, as python-can reads it: other objects than CAN frames are passed over.
+
+    Parameters
+    ----------
+    path
+        The log.
+    block_size
+        Frames in a block.
+
+    Raises
+    ------
+    OSError
+        Where the file cannot be opened.
+    """
+
+    def __init__(self, path: Path, block_size: int = BLOCK_SIZE) -> None:
+        self.path = path
+        self.damage: Damage | None = None
+        self._block_size = block_size
+        self._file = path.open("rb")
+        self._size = path.stat().st_size
+        self._position = 0
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file."""
+        return self._size
+
+    @property
+    def position(self) -> int:
+        """Bytes of the file that have been read so far."""
+        return self._position
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __iter__(self) -> Iterator[FrameBlock]:
+        """The frames, in blocks."""
+        return reblock(self._frames(), self._block_size)
+
+    def _frames(self) -> Iterator[FrameBlock]:
+        header_size, expected, start = self._header()
+        if not header_size:
+            problem = "this is not the header of a BLF file"
+            self.damage = Damage(self.path, "byte 0", problem, f"{self._size:,} bytes")
+            return
+        self._file.seek(header_size)
+        objects = ObjectStream(start)
+        try:
+            for batch in batches(containers(self._file, self._size), _BATCH):
+                self._position = batch[-1].end
+                yield from objects.frames(batch)
+            objects.check_end(self._size, expected)
+        except BrokenLog as error:
+            lost = max(self._size + error.missing, expected) - error.at
+            self.damage = Damage(self.path, f"byte {error.at}", str(error), f"{lost:,} bytes")
+        else:
+            self._position = self._size
+
+    def _header(self) -> tuple[int, int, float]:
+        """Size of the header (0 if there is none), of the file it says, and the log's start."""
+        header = self._file.read(_HEADER.size)
+        if len(header) < _HEADER.size or not header.startswith(b"LOGG"):
+            return 0, 0, 0.0
+        _, header_size, file_size, *start = _HEADER.unpack(header)
+        if header_size > self._size:
+            return 0, 0, 0.0
+        time = systemtime_to_timestamp(cast("TSystemTime", tuple(start)))
+        return max(header_size, _HEADER.size), file_size, time

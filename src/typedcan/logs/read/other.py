@@ -1,0 +1,122 @@
+"""Logs of all other kinds, frame by frame through python-can's reader for them."""
+
+from __future__ import annotations
+
+import sqlite3
+import struct
+import zlib
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+
+import can
+import numpy as np
+from can.io.generic import MessageReader
+
+from typedcan.logs.frames import FrameBlock
+from typedcan.logs.read.blocks import NARROW, WIDE, Channels
+from typedcan.logs.read.columns import channel_of, flags_of, payload_length
+from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogError, LogSource
+
+_DAMAGE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    NotImplementedError,
+    OSError,
+    TypeError,
+    ValueError,
+    sqlite3.Error,
+    struct.error,
+    zlib.error,
+)
+
+
+class OtherSource(LogSource):
+    """A log of a kind that python-can or one of its plugins reads, such as SQLite.
+
+    Parameters
+    ----------
+    path
+        The log.
+    block_size
+        Frames in a block.
+
+    Raises
+    ------
+    LogError
+        Where python-can does not know the suffix.
+    """
+
+    def __init__(self, path: Path, block_size: int = BLOCK_SIZE) -> None:
+        self.path = path
+        self.damage: Damage | None = None
+        self._block_size = block_size
+        self._size = path.stat().st_size
+        self._position = 0
+        self._count = 0
+        self._reader: MessageReader | None = None
+        try:
+            self._reader = can.LogReader(path)
+        except _DAMAGE as error:
+            if path.suffix.lower() not in can.io.MESSAGE_READERS:
+                known = ", ".join(sorted(can.io.MESSAGE_READERS))
+                raise LogError(f"{path}: no log of a known kind; known are {known}") from None
+            self._broke(error)
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file."""
+        return self._size
+
+    @property
+    def position(self) -> int:
+        """0 until all of the file has been read: python-can does not say how far it is."""
+        return self._position
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._reader is not None:
+            self._reader.stop()
+            self._reader = None
+
+    def __iter__(self) -> Iterator[FrameBlock]:
+        """The frames, in blocks."""
+        channels = Channels()
+        frames = self._frames()
+        while some := list(islice(frames, self._block_size)):
+            yield _block(some, channels)
+
+    def _frames(self) -> Iterator[can.Message]:
+        if self._reader is None:
+            return
+        try:
+            for frame in self._reader:
+                payload_length(frame)  # raises where a damaged file made nonsense of a frame
+                channel_of(frame)
+                self._count += 1
+                yield frame
+        except _DAMAGE as error:
+            self._broke(error)
+        else:
+            self._position = self._size
+
+    def _broke(self, error: Exception) -> None:
+        where = f"frame {self._count + 1}"
+        problem = " ".join(str(error).split()) or type(error).__name__
+        self.damage = Damage(self.path, where, problem, "all frames from there on")
+
+
+def _block(frames: list[can.Message], channels: Channels) -> FrameBlock:
+    width = WIDE if any(len(frame.data) > NARROW for frame in frames) else NARROW
+    payloads = (bytes(frame.data).ljust(width, b"\0") for frame in frames)
+    return FrameBlock(
+        np.array([frame.timestamp for frame in frames], np.float64),
+        np.array([frame.arbitration_id for frame in frames], np.uint32),
+        np.array([flags_of(frame) for frame in frames], np.uint8),
+        np.array([channels.index(channel_of(frame)) for frame in frames], np.int16),
+        np.array([payload_length(frame) for frame in frames], np.uint8),
+        np.frombuffer(bytearray().join(payloads), np.uint8).reshape(-1, width),
+        channels.known,
+    )

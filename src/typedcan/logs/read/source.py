@@ -1,0 +1,85 @@
+"""What every log reader is, and how it says that a file is damaged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Protocol, Self
+
+from typedcan.logs.frames import FrameBlock
+from typedcan.model.errors import TypedcanError
+
+BLOCK_SIZE = 65_536
+"""Frames in a block, unless the caller wants another number."""
+
+
+class LogError(TypedcanError):
+    """A log cannot be opened: there is none, or nothing here reads such a file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Damage:
+    """Where a log broke: every frame before it is delivered, of those behind it what can be read.
+
+    Parameters
+    ----------
+    path
+        The log.
+    where
+        The place in the file, such as ``byte 123456`` or ``line 17``.
+    problem
+        What is wrong there, in one line.
+    lost
+        How much of the file is lost, such as ``3,412 bytes``.
+    """
+
+    path: Path
+    where: str
+    problem: str
+    lost: str
+
+    def __str__(self) -> str:
+        """One line for a person."""
+        return f"{self.path}: damaged at {self.where}: {self.problem}; lost: {self.lost}"
+
+
+class LogSource(Protocol):
+    """A log that is open: iterate once over its blocks, then look at ``damage``."""
+
+    path: Path
+
+    damage: Damage | None
+    """None until the iteration came upon damage, which never is an exception."""
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file."""
+        ...
+
+    @property
+    def position(self) -> int:
+        """Bytes of the file that have been read so far; equals ``size`` at the end."""
+        ...
+
+    def __iter__(self) -> Iterator[FrameBlock]:
+        """The frames, in the file's order, in blocks that are never empty."""
+        ...
+
+    def close(self) -> None:
+        """Close the file; more than once does no harm."""
+        ...
+
+    def __enter__(self) -> Self:
+        """Itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the file."""
+        self.close()

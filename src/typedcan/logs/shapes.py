@@ -1,0 +1,55 @@
+"""What is made of decoded blocks: a table per message, or whatever else derives from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Protocol as Interface
+
+import pyarrow as pa
+
+from typedcan.logs.arrow import MessageTable
+from typedcan.logs.columns import DecodedBlock
+
+Batch = tuple[str, pa.RecordBatch]
+"""Some rows of the table of that name."""
+
+
+class Shape(Interface):
+    """Makes rows of tables from the decoded blocks of one log, in their order.
+
+    What a block's columns hold is overwritten by the next block: a shape copies what it keeps.
+    """
+
+    @property
+    def schemas(self) -> Mapping[str, pa.Schema]:
+        """The tables that it can make, by name."""
+        ...
+
+    def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
+        """The rows that are complete with this block."""
+        ...
+
+    def finish(self) -> Iterator[Batch]:
+        """The rows that are left at the end of the log."""
+        ...
+
+
+class PerMessage(Shape):
+    """A table per message, with a column per signal."""
+
+    def __init__(self, tables: Mapping[str, MessageTable]) -> None:
+        self._tables = tables
+
+    @property
+    def schemas(self) -> Mapping[str, pa.Schema]:
+        """By name of the message."""
+        return {name: table.schema for name, table in self._tables.items()}
+
+    def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
+        """The frames of the block."""
+        for name, columns in decoded.messages.items():
+            yield name, self._tables[name].batch(columns)
+
+    def finish(self) -> Iterator[Batch]:
+        """Nothing is left."""
+        yield from ()

@@ -1,0 +1,129 @@
+"""What came of a conversion: frames, faults, gaps, damage; in lines for people and as JSON."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from typedcan.logs.checks import Faults
+from typedcan.logs.columns import Counts
+from typedcan.logs.read import Damage
+
+_MOST = 10
+"""Unknown identifiers that are listed for people."""
+
+
+@dataclass(slots=True)
+class Summary:
+    """What was found in one log, or in several.
+
+    Parameters
+    ----------
+    logs
+        How many.
+    counts
+        What became of the frames, as the decoder has it. Frames that were refused for their
+        length or checksum are not in ``decoded``.
+    faults
+        What was wrong with frames of known messages.
+    damage
+        The logs that are damaged, and where.
+    begin
+        Time stamp of the first frame of the first log that has any.
+    seconds
+        From the first to the last frame, of all logs together.
+    rows
+        By name of the table.
+    """
+
+    logs: int = 0
+    counts: Counts = field(default_factory=Counts)
+    faults: Faults = field(default_factory=Faults)
+    damage: list[Damage] = field(default_factory=list[Damage])
+    begin: float | None = None
+    seconds: float = 0.0
+    rows: Counter[str] = field(default_factory=Counter[str])
+
+    def add(self, other: Summary) -> None:
+        """Add what was found in the logs that follow."""
+        self.logs += other.logs
+        self.counts.add(other.counts)
+        self.faults.add(other.faults)
+        self.damage += other.damage
+        self.begin = other.begin if self.begin is None else self.begin
+        self.seconds += other.seconds
+        self.rows.update(other.rows)
+
+    def lines(self) -> Iterator[str]:
+        """For people."""
+        counts, faults = self.counts, self.faults
+        decoded = counts.decoded.total()
+        yield f"{counts.frames:,} frames in {self.seconds:,.1f} s, {decoded:,} decoded"
+        others = {"not asked for": counts.unwanted, "remote": counts.remote, "error": counts.error}
+        if any(others.values()):
+            yield ", ".join(f"{many:,} {what}" for what, many in others.items() if many)
+        if counts.unknown:
+            yield f"unknown identifiers: {_listed(_identifiers(counts))}"
+        for title, found in (
+            ("wrong length", faults.length),
+            ("wrong checksum", faults.checksum),
+            ("wrong counter", faults.counter),
+            ("undecodable", counts.undecodable),
+        ):
+            if found:
+                yield f"{title}: {_listed(found)}"
+        for name, gaps in sorted(faults.gaps.items()):
+            yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
+        for damage in self.damage:
+            yield str(damage)
+
+    def as_json(self) -> dict[str, Any]:
+        """For programs."""
+        counts, faults = self.counts, self.faults
+        return {
+            "logs": self.logs,
+            "begin": self.begin,
+            "seconds": self.seconds,
+            "frames": counts.frames,
+            "decoded": dict(counts.decoded),
+            "unknown": dict(_identifiers(counts)),
+            "unwanted": counts.unwanted,
+            "remote": counts.remote,
+            "error": counts.error,
+            "undecodable": dict(counts.undecodable),
+            "wrong_length": dict(faults.length),
+            "wrong_checksum": dict(faults.checksum),
+            "wrong_counter": dict(faults.counter),
+            "gaps": {
+                name: {"count": gaps.count, "longest": gaps.longest}
+                for name, gaps in faults.gaps.items()
+            },
+            "damage": [
+                {
+                    "path": str(damage.path),
+                    "where": damage.where,
+                    "problem": damage.problem,
+                    "lost": damage.lost,
+                }
+                for damage in self.damage
+            ],
+            "rows": dict(self.rows),
+        }
+
+
+def _identifiers(counts: Counts) -> Counter[str]:
+    return Counter(
+        {
+            f"0x{number:08X}" if extended else f"0x{number:03X}": frames
+            for (number, extended), frames in counts.unknown.items()
+        }
+    )
+
+
+def _listed(found: Counter[str]) -> str:
+    """The most frequent, and how many there are beside."""
+    text = ", ".join(f"{name} {many:,}" for name, many in found.most_common(_MOST))
+    left = len(found) - _MOST
+    return f"{text} and {left:,} more" if left > 0 else text
