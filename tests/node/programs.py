@@ -48,6 +48,12 @@ class Program:
         assert self.process.stdout
         assert self.process.stdout.readline().strip() == text
 
+    def end_its_input(self) -> None:
+        """Let it read to the end."""
+        assert self.process.stdin
+        self.process.stdin.close()
+        self.process.stdin = None
+
     def hear(self) -> list[can.Message]:
         """All that it has sent so far."""
         self.heard += rest(self._bus)
@@ -85,6 +91,7 @@ def running(text: str, options: dict[str, Any], bus: can.BusABC, folder: Path) -
         [sys.executable, "-c", _BEGIN + text, json.dumps(options)],
         env=environment(),
         cwd=folder,
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         encoding="utf-8",

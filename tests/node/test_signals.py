@@ -73,7 +73,7 @@ def test_what_stops_the_process_ends_what_acts_and_it_does_not_drive_on(
     text = """
 with Node(PROTOCOL, "VCU", bus) as node:
     node.set(ON)
-    sys.stdin.readline() if False else wait_for_cont()
+    gone_on.wait()
     for act in (node.set, node.send, node.provide, lambda each: node.supply(V2B_CMD, list)):
         try:
             act(ON)
@@ -85,7 +85,6 @@ print("left", flush=True)
     prepare = """
 gone_on = threading.Event()
 signal.signal(signal.SIGCONT, lambda *_: gone_on.set())
-wait_for_cont = gone_on.wait
 """
     with program(prepare + text) as run:
         run.wait_until_on()
