@@ -96,7 +96,7 @@ def running(text: str, options: dict[str, Any], bus: can.BusABC, folder: Path) -
         stderr=subprocess.PIPE,
         encoding="utf-8",
         # A group of its own in this session: else nothing might stop it.
-        **({} if sys.platform == "win32" else {"process_group": 0}),
+        process_group=None if sys.platform == "win32" else 0,
     )
     try:
         yield Program(process, bus)

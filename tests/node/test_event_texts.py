@@ -13,7 +13,7 @@ from swapcan.messages import V2B_CMD
 
 
 def test_events_have_facts_and_a_line() -> None:
-    events = {
+    events: dict[str, SendFailed | ReceiveFailed | NodeFailed] = {
         "V2B_CMD: not sent: KeyError: 'type'": SendFailed(V2B_CMD, "KeyError: 'type'", 1.5),
         "frame 0x1802F3D0 not handled: no": ReceiveFailed(V2B_CMD.FRAME_ID, "no", 1.5),
         "the node cannot go on and sends nothing more: SystemExit: 3": NodeFailed(

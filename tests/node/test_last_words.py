@@ -246,8 +246,8 @@ def as_on_windows(monkeypatch: pytest.MonkeyPatch) -> int:
 
 
 def test_break_on_windows_ends_a_command_as_other_signals_do(as_on_windows: int) -> None:
+    assert not Interrupts().is_over
     interrupts = Interrupts()
-    assert not interrupts.is_over
     interrupts.note(as_on_windows)
     assert interrupts.is_over
     assert interrupts.status == 128 + as_on_windows

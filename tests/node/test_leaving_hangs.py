@@ -158,7 +158,12 @@ def test_a_bus_that_is_slower_than_the_periods_is_left_all_the_same(
 def test_a_callback_that_stops_its_node_ends_what_acts(near: can.BusABC, far: can.BusABC) -> None:
     stopped = threading.Event()
     node = Node(PROTOCOL, "VCU", near)
-    node.on(B2V_ST2, lambda _: (node.stop(), stopped.set()))
+
+    def stop(_: object) -> None:
+        node.stop()
+        stopped.set()
+
+    node.on(B2V_ST2, stop)
     node.start()
     node.set(ON)
     heard = frames_until(far, is_on)
@@ -262,7 +267,7 @@ def test_a_copy_of_the_process_does_not_speak_for_its_parent(
         pid = os.fork()
         if pid == 0:
             # The copy leaves the block and ends: what it sends can be counted here alone.
-            near.send = taken  # type: ignore[method-assign]
+            near.send = taken  # type: ignore[method-assign, assignment]
             code = 1
             try:
                 node.stop()

@@ -207,7 +207,12 @@ def test_one_who_is_told_may_raise_too_and_stop_the_node(
 ) -> None:
     stopped = Recorder()
     vcu.on(NodeFailed, raising(lambda: SystemExit(1)))
-    vcu.on(NodeFailed, lambda event: (vcu.stop(), stopped(event)))
+
+    def stop(event: NodeFailed) -> None:
+        vcu.stop()
+        stopped(event)
+
+    vcu.on(NodeFailed, stop)
     heard = frames_until(far, is_on)
     rough.before_send = raising(lambda: SystemExit(3), times=1)
     stopped.wait(timeout=30.0)

@@ -139,7 +139,8 @@ class Engine:
     def stop(self, patience: float | None = None) -> None:
         """End all that was begun; does nothing where that is done.
 
-        Waits for the threads for ``patience`` seconds. Raises `StillActingError` where what acts could not be ended.
+        Waits for the threads for ``patience`` seconds. Raises `StillActingError` where what acts
+        could not be ended.
         """
         try:
             if self._threads:
