@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
+from pathlib import Path
 
 import can
 import pytest
 from node.bench import Bench, Ear
+from node.programs import Program, running
 from node.rough_bus import RoughBus, made_rough
+from simulate.commands import bus_options
 
 
 @pytest.fixture(autouse=True)
@@ -39,3 +43,11 @@ def hurried_leaving(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def ear(bench: Bench, far: can.BusABC) -> Ear:
     return Ear(bench, far)
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> Iterator[Callable[[str], AbstractContextManager[Program]]]:
+    """Runs a program with a bus that processes share."""
+    options = bus_options("udp_multicast")
+    with can.Bus(ignore_config=True, **options) as bus:
+        yield lambda text: running(text, options, bus, tmp_path)

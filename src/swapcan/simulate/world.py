@@ -69,6 +69,7 @@ class World:
         self._began: float | None = None
         self._steps = 0
         self._stop = threading.Event()
+        self._is_over = False
         self._thread: threading.Thread | None = None
         self._failure: BaseException | None = None
         for participant in participants:
@@ -108,7 +109,7 @@ class World:
 
     def speak_last(self) -> None:
         """Before a signal ends or stops the process: nothing acts any more."""
-        self._stop.set()
+        self._is_over = True  # the lock of an event may be held by what the signal interrupted
         if self._thread:
             self._thread.join(_PATIENCE)
         self._leave()
@@ -118,6 +119,7 @@ class World:
 
     def __enter__(self) -> Self:
         self._stop.clear()
+        self._is_over = False
         self._thread = threading.Thread(target=self._live_apart, name="swapcan-world", daemon=True)
         if not isinstance(self.clock, SimulatedClock):
             LAST_WORDS.add(self)
@@ -171,7 +173,7 @@ class World:
         while True:
             self._turn()
             now = self.clock.now()
-            if now >= end or self._stop.is_set():
+            if now >= end or self._is_over or self._stop.is_set():
                 return
             self._wait(min(self._next_moment(now), end))
 

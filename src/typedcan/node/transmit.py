@@ -39,7 +39,7 @@ class Transmitter:
         self._commands = SentCommands()
         self._under_way: Message | None = None
         self._under_way_in: int | None = None
-        self._waited_out: Message | None = None
+        self._hangs = False
         self.sends: Sends = "all"
         """Once this is less, it is less for every transmission that has not begun yet."""
         self.ends_safe = True
@@ -80,6 +80,7 @@ class Transmitter:
         Raises `EncodeError`, what the bus raises, and `SendingError` for what is sent no more.
         """
         with self._lock:
+            self._hangs = False
             if self._refuses(message):
                 raise SendingError(f"{message.NAME}: the node is being left, it is sent no more")
             frame = self.frame(message)
@@ -109,9 +110,8 @@ class Transmitter:
         """
         failure: BaseException | None = None
         # A thread that hangs in the bus must not keep the others from trying, and not each time.
-        is_waited_out = self._under_way is not None and self._under_way is self._waited_out
-        held = self._lock.acquire(timeout=0 if is_waited_out else _AT_MOST)
-        self._waited_out = None if held else self._under_way
+        held = self._lock.acquire(timeout=0 if self._hangs else _AT_MOST)
+        self._hangs = not held
         try:
             for message in self._commands.all:
                 try:

@@ -135,7 +135,7 @@ def _text(error: BaseException) -> str:
     name = type(error).__name__
     try:
         text = " ".join(str(error).split())
-    except Exception:  # noqa: BLE001 - an error of somebody else's that cannot even be shown
+    except BaseException:  # noqa: BLE001 - an error of somebody else's that cannot even be shown
         text = ""
     # What a driver raises by mistake, such as "list index out of range", says too little alone.
     wanted = isinstance(error, OSError | ValueError) or type(error).__module__ != "builtins"

@@ -1,0 +1,282 @@
+"""Signals within this process: whose are taken over and when, and what is given back.
+
+Windows' Ctrl-Break is tested by calling what would be its handler, and untested on Windows.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import can
+import pytest
+from node.bench import Recorder
+from node.rough_bus import (
+    RoughBus,
+    frames_until,
+    is_off,
+    is_on,
+    nothing,
+    raising,
+    rest,
+    trailing_offs,
+)
+from node.test_time_goes_on import Hang
+
+from swapcan import SendingError
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.messages import V2B_CMD, HvCommand
+from swapcan.node import Node
+from typedcan.node.schedule import Schedule
+from typedcan.shell import process_signals
+from typedcan.shell.process_signals import LAST_WORDS, Interrupts, LastWords
+
+pytestmark = pytest.mark.skipif(
+    not hasattr(signal, "SIGUSR1"), reason="Windows has no signals that nobody listens to"
+)
+
+ON = V2B_CMD(hv_on_off=HvCommand.HV_ON)
+
+TAKEN = ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTSTP", "SIGRTMIN")
+LEFT = ("SIGINT", "SIGCHLD", "SIGCONT", "SIGWINCH", "SIGURG", "SIGSEGV", "SIGFPE", "SIGPIPE")
+
+
+def handlers(names: tuple[str, ...]) -> list[Any]:
+    return [signal.getsignal(getattr(signal, name)) for name in names if hasattr(signal, name)]
+
+
+@pytest.fixture(autouse=True)
+def signals_as_they_are() -> Iterator[None]:
+    """Those of this test run, whatever it has been started by, and no others after the test."""
+    before = {number: signal.getsignal(number) for number in signal.valid_signals()}
+    for name in TAKEN:
+        signal.signal(getattr(signal, name), signal.SIG_DFL)
+    yield
+    for number, handler in before.items():
+        if handler is not None and signal.getsignal(number) != handler:
+            signal.signal(number, handler)
+
+
+@pytest.fixture
+def survived(monkeypatch: pytest.MonkeyPatch) -> Recorder:
+    """Signals do not do what they do: this process is to live."""
+    survived = Recorder()
+    monkeypatch.setattr(process_signals, "_let_it", lambda number, _: survived(number))
+    return survived
+
+
+def test_what_nobody_listens_to_is_taken_over_while_a_node_lives_that_can_act(
+    near: can.BusABC,
+) -> None:
+    left = handlers(LEFT)
+    with Node(PROTOCOL, "VCU", near), Node(PROTOCOL, "BMU", near):
+        assert all(callable(handler) for handler in handlers(TAKEN))
+        assert len(set(map(id, map(type, handlers(TAKEN))))) == 1
+        assert handlers(LEFT) == left
+    assert handlers(TAKEN) == [signal.SIG_DFL] * len(handlers(TAKEN))
+
+
+@pytest.mark.parametrize(("name", "options"), [("TMS", {}), ("VCU", {"leave": "silent"})])
+def test_a_node_that_has_nothing_to_say_in_the_end_takes_nothing_over(
+    near: can.BusABC, name: str, options: dict[str, Any]
+) -> None:
+    with Node(PROTOCOL, name, near, **options):
+        assert handlers(TAKEN) == [signal.SIG_DFL] * len(handlers(TAKEN))
+
+
+def test_a_node_that_is_started_in_another_thread_takes_nothing_over(near: can.BusABC) -> None:
+    node = Node(PROTOCOL, "VCU", near)
+    thread = threading.Thread(target=node.start)
+    thread.start()
+    thread.join()
+    assert handlers(TAKEN) == [signal.SIG_DFL] * len(handlers(TAKEN))
+    with Node(PROTOCOL, "BMU", near):  # whose handlers are for both
+        assert callable(signal.getsignal(signal.SIGTERM))
+    assert callable(signal.getsignal(signal.SIGTERM))
+    node.stop()
+    assert handlers(TAKEN) == [signal.SIG_DFL] * len(handlers(TAKEN))
+
+
+def test_what_a_program_sets_before_or_meanwhile_stays(near: can.BusABC) -> None:
+    signal.signal(signal.SIGTERM, nothing)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    with Node(PROTOCOL, "VCU", near):
+        assert signal.getsignal(signal.SIGTERM) is nothing
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+        signal.signal(signal.SIGUSR1, nothing)
+    assert signal.getsignal(signal.SIGTERM) is nothing
+    assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    assert signal.getsignal(signal.SIGUSR1) is nothing
+    assert signal.getsignal(signal.SIGUSR2) is signal.SIG_DFL
+
+
+def test_what_a_program_gives_up_again_is_taken_over_by_the_next_node(near: can.BusABC) -> None:
+    with Node(PROTOCOL, "VCU", near):
+        signal.signal(signal.SIGUSR1, signal.SIG_DFL)
+        with Node(PROTOCOL, "BMU", near):
+            assert callable(signal.getsignal(signal.SIGUSR1))
+
+
+def test_a_signal_in_the_middle_of_a_transmission_lets_it_not_go_on(
+    rough: RoughBus, far: can.BusABC, survived: Recorder
+) -> None:
+    def interrupt(_: can.Message) -> None:
+        if threading.current_thread() is threading.main_thread():
+            rough.before_send = nothing
+            signal.raise_signal(signal.SIGUSR1)
+
+    with Node(PROTOCOL, "VCU", rough) as node:
+        node.send(ON)
+        rough.before_send = interrupt
+        with pytest.raises(SendingError, match="stopped by a signal"):
+            node.send(ON)
+        heard = rest(far)
+        with pytest.raises(SendingError, match="stopped by a signal"):
+            node.set(ON)
+    assert survived.seen == [signal.SIGUSR1]
+    assert is_on(heard[0])
+    assert len(trailing_offs(heard)) == len(heard) - 1 >= 5
+    assert all(map(is_off, rest(far)))  # what it was in the middle of ends safe once more
+
+
+def test_a_signal_in_the_middle_of_a_change_ends_what_acts(
+    near: can.BusABC, far: can.BusABC, survived: Recorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Node(PROTOCOL, "VCU", near) as node:
+        node.set(ON)
+        heard = frames_until(far, is_on)
+        add = Schedule.add
+
+        def add_and_interrupt(schedule: Schedule, *arguments: Any) -> None:
+            add(schedule, *arguments)
+            # The main thread holds what the one that sends would need.
+            monkeypatch.setattr(Schedule, "add", add)
+            signal.raise_signal(signal.SIGTERM)
+
+        monkeypatch.setattr(Schedule, "add", add_and_interrupt)
+        node.set(ON)
+        heard += rest(far)
+        assert len(trailing_offs(heard)) >= 5
+        assert survived.seen == [signal.SIGTERM]
+    assert is_off((heard + rest(far))[-1])
+
+
+def test_a_node_that_a_signal_has_ended_can_be_started_again(
+    near: can.BusABC, far: can.BusABC, survived: Recorder
+) -> None:
+    node = Node(PROTOCOL, "VCU", near)
+    for _ in range(2):
+        with node:
+            node.set(ON)
+            heard = frames_until(far, is_on)
+            signal.raise_signal(signal.SIGTERM)
+            assert len(trailing_offs(heard + rest(far))) >= 5
+            assert node.acting == ()
+            with pytest.raises(SendingError, match="VCU has been stopped by a signal"):
+                node.send(ON)
+        assert rest(far) == []
+    assert len(survived.seen) == 2
+
+
+class Speaker:
+    """Says its last words as a test wants it to."""
+
+    def __init__(self, act: Callable[[], object] = nothing) -> None:
+        self.spoke = Recorder()
+        self.went_on = Recorder()
+        self._act = act
+
+    def speak_last(self) -> None:
+        self.spoke(threading.current_thread().name)
+        self._act()
+
+    def go_on(self) -> None:
+        self.went_on(None)
+
+
+def test_one_who_hangs_or_fails_keeps_nobody_from_speaking(
+    survived: Recorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(process_signals, "_PATIENCE", 0.2)
+    monkeypatch.setattr(threading, "excepthook", failed := Recorder())
+    hang = Hang()
+    words = LastWords()
+    speakers = [Speaker(hang), Speaker(raising(KeyError)), Speaker()]
+    for speaker in speakers:
+        words.add(speaker)
+    signal.raise_signal(signal.SIGTERM)
+    assert survived.seen == [signal.SIGTERM]
+    assert [len(speaker.spoke.seen) for speaker in speakers] == [1, 1, 1]
+    assert [len(speaker.went_on.seen) for speaker in speakers] == [1, 1, 1]
+    assert [failure.exc_type for failure in failed.seen] == [KeyError]
+    hang.release()
+    for speaker in speakers:
+        words.discard(speaker)
+    for thread in threading.enumerate():
+        if thread.name == "swapcan-last-words":
+            thread.join(30.0)
+
+
+def test_where_no_thread_can_be_started_the_main_thread_speaks(
+    survived: Recorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words, speaker = LastWords(), Speaker()
+    words.add(speaker)
+    monkeypatch.setattr(threading.Thread, "start", raising(RuntimeError))
+    signal.raise_signal(signal.SIGTERM)
+    words.discard(speaker)
+    assert speaker.spoke.seen == [threading.main_thread().name]
+
+
+def test_a_copy_of_the_process_has_nothing_to_say(near: can.BusABC) -> None:
+    with Node(PROTOCOL, "VCU", near) as node:
+        assert callable(signal.getsignal(signal.SIGTERM))
+        LAST_WORDS.forget()  # what a fork does in the copy
+        assert handlers(TAKEN) == [signal.SIG_DFL] * len(handlers(TAKEN))
+        node.set(ON)
+
+
+@pytest.fixture
+def as_on_windows(monkeypatch: pytest.MonkeyPatch) -> int:
+    """The number of Ctrl-Break, which is that of another signal here."""
+    monkeypatch.delattr(signal, "SIGTTIN")
+    monkeypatch.setattr(signal, "SIGBREAK", 21, raising=False)
+    return 21
+
+
+def test_break_on_windows_ends_a_command_as_other_signals_do(as_on_windows: int) -> None:
+    assert not Interrupts().is_over
+    interrupts = Interrupts()
+    interrupts.note(as_on_windows)
+    assert interrupts.is_over
+    assert interrupts.status == 128 + as_on_windows
+    with pytest.raises(SystemExit) as ended:
+        interrupts.go_on()
+    assert ended.value.code == 128 + as_on_windows
+
+
+def test_break_on_windows_ends_what_a_node_has_commanded(
+    near: can.BusABC, far: can.BusABC, as_on_windows: int, survived: Recorder
+) -> None:
+    with Node(PROTOCOL, "VCU", near) as node:
+        node.set(ON)
+        heard = frames_until(far, is_on)
+        handler = signal.getsignal(signal.SIGTERM)
+        assert callable(handler)
+        handler(as_on_windows, None)
+        assert len(trailing_offs(heard + rest(far))) >= 5
+    assert survived.seen == [as_on_windows]
+
+
+def test_what_a_command_does_at_once_may_fail_and_the_signal_stops_it_all_the_same(
+    survived: Recorder, caplog: pytest.LogCaptureFixture
+) -> None:
+    with Interrupts() as interrupts:
+        interrupts.at_once = raising(KeyError)
+        signal.raise_signal(signal.SIGTTOU)
+        assert interrupts.is_over
+        assert interrupts.status == 128 + signal.SIGTTOU
+    assert survived.seen == [signal.SIGTTOU]
+    assert len(caplog.records) == 1

@@ -1,0 +1,111 @@
+"""A world in real time ends what its participants have commanded."""
+
+from __future__ import annotations
+
+import can
+import pytest
+from node.rough_bus import (
+    RoughBus,
+    frames_until,
+    is_off,
+    is_on,
+    made_rough,
+    raising,
+    rest,
+    trailing_offs,
+)
+
+from swapcan import StillActingError
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.messages import V2B_CMD, HvCommand
+from swapcan.node import Node
+from swapcan.simulate.participant import Participant
+from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from swapcan.simulate.world import World
+from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
+
+
+class Driver(Participant):
+    """Commands high voltage on from the beginning."""
+
+    name = "VCU"
+
+    def __init__(self, bus: can.BusABC, clock: Clock) -> None:
+        self.node = Node(PROTOCOL, "VCU", bus, clock=clock)
+        super().__init__(self.node)
+        self.node.set(V2B_CMD(hv_on_off=HvCommand.HV_ON))
+
+    def step(self, now: float) -> None:
+        pass
+
+
+@pytest.fixture
+def rough(near: can.BusABC) -> RoughBus:
+    return made_rough(near)
+
+
+@pytest.fixture
+def driver(rough: RoughBus) -> Driver:
+    return Driver(rough, SystemClock())
+
+
+def test_off_is_the_last_word(driver: Driver, far: can.BusABC) -> None:
+    with World(driver):
+        heard = frames_until(far, is_on)
+    assert len(trailing_offs(heard + rest(far))) == 5
+    assert driver.node.acting == ()
+
+
+@pytest.mark.parametrize("error", [ZeroDivisionError, KeyboardInterrupt])
+def test_a_world_that_cannot_go_on_ends_it_at_once(
+    driver: Driver, far: can.BusABC, error: type[BaseException]
+) -> None:
+    heard: list[can.Message] = []
+
+    def live() -> None:
+        with World(driver) as world:
+            heard.extend(frames_until(far, is_on))
+            world.at(0.0, raising(error))
+            heard.extend(frames_until(far, is_off))
+
+    with pytest.raises(error):
+        live()
+    assert len(trailing_offs(heard + rest(far))) == 5
+
+
+def test_a_bus_that_takes_nothing_any_more_is_said_to_be_live(
+    driver: Driver, rough: RoughBus, far: can.BusABC
+) -> None:
+    def live() -> None:
+        with World(driver):
+            frames_until(far, is_on)
+            rough.before_send = raising(OSError)
+
+    with pytest.raises(StillActingError, match="TAKE IT FOR LIVE") as raised:
+        live()
+    assert raised.value.messages == ("V2B_CMD",)
+
+
+def test_an_error_that_the_block_is_left_with_stays_and_gets_a_note(
+    driver: Driver, rough: RoughBus, far: can.BusABC
+) -> None:
+    def live() -> None:
+        with World(driver):
+            frames_until(far, is_on)
+            rough.before_send = raising(OSError)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError) as raised:
+        live()
+    assert "TAKE IT FOR LIVE" in raised.value.__notes__[0]
+
+
+def test_in_simulated_time_there_is_nothing_to_end() -> None:
+    clock = SimulatedClock()
+    wire = SimulatedWire(clock)
+    with SimulatedBus(wire) as bus, SimulatedBus(wire) as heard:
+        world = World(Driver(bus, clock), clock=clock, wires=(wire,))
+        with world:
+            pass
+        world.run(1.0)
+        assert all(map(is_on, rest(heard)))
