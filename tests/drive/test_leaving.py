@@ -103,10 +103,12 @@ def test_a_fault_of_the_transmission_does_not_keep_the_safe_codes_back(fault: st
         assert driven.rig.pack.pack.relays.closed
         before = len(on_wire(driven.rig))
         assert before > 20
+        begin = driven.rig.clock.now()
         assert driven.driving.leave(driven.simulation, driven.faults) is Left.SAFE
+        assert driven.rig.clock.now() - begin == pytest.approx(0.5, abs=0.02)
         frames = on_wire(driven.rig)
         assert {command_in(frame) for frame in frames} == {HvCommand.HV_OFF}
-        assert len(frames) >= 7
+        assert 10 <= len(frames) <= 13  # one at once, and as often as it is due
         assert all(map(is_whole, frames))
         counters = [frame.data[1] & 0xF for frame in frames]
         steps = {(b - a) % 15 for a, b in itertools.pairwise(counters)}

@@ -29,7 +29,7 @@ def test_events_have_facts_and_a_line() -> None:
 
 def test_what_is_live_is_named_with_the_reason_and_what_to_do() -> None:
     error = StillActingError(["V2B_CMD", "B2C_Charger"], "Network is down")
-    assert isinstance(error, SwapcanError)
+    assert isinstance(error, TypedcanError)
     assert error.messages == ("V2B_CMD", "B2C_Charger")
     assert error.cause == "Network is down"
     assert str(error) == (

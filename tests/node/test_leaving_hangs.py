@@ -79,7 +79,7 @@ def test_beside_a_transmission_that_hangs_the_safe_codes_go_out_and_again_after_
         node.stop()
     assert raised.value.messages == ("V2B_CMD",)
     assert len(trailing_offs(rest(far))) >= 5
-    with pytest.raises(SwapcanError, match="still hangs"):
+    with pytest.raises(TypedcanError, match="still hangs"):
         node.start()
     hang.release()
     heard = frames_until(far, is_on)  # the one that hung
@@ -101,7 +101,7 @@ def test_a_bus_that_takes_nothing_while_a_transmission_hangs_holds_nothing_up(
     with pytest.raises(StillActingError, match="TAKE IT FOR LIVE"):
         node.stop()
     assert time.perf_counter() - start < 3.0
-    with pytest.raises(SwapcanError, match="stopped"):
+    with pytest.raises(TypedcanError, match="stopped"):
         pending.result(0)
 
 

@@ -95,9 +95,9 @@ def test_a_node_can_be_started_again(near: can.BusABC, far: can.BusABC) -> None:
 
 def test_a_started_node_is_neither_started_nor_turned(near: can.BusABC) -> None:
     with Node(PROTOCOL, "BMU", near) as node:
-        with pytest.raises(SwapcanError, match="started already"):
+        with pytest.raises(TypedcanError, match="started already"):
             node.start()
-        with pytest.raises(SwapcanError, match="its threads turn it"):
+        with pytest.raises(TypedcanError, match="its threads turn it"):
             node.turn()
 
 

@@ -94,12 +94,14 @@ def _driven(
     left = Left.UNTOUCHED
     with open_bus(given) as bus, Interrupts() as interrupts:
         name = _record_name(given, bus)
+        stage = Stage(bus, is_over=lambda: interrupts.is_over, warn=lambda: warn(HUNG))
+        interrupts.at_once, interrupts.hangs = stage.send_safe_codes, lambda: stage.hangs
         for (scenario, nodes), path in zip(scenarios, paths, strict=True):
             if interrupts.is_over or left is Left.UNKNOWN:
                 break
             note(f"playing {scenario.name} on {name}, Ctrl-C switches off and ends")
             with _recorded(path) as recording:
-                left = _play(bus, interrupts, scenario, nodes, recording, given.channel)
+                left = _play(stage, scenario, nodes, recording, given.channel)
             interrupts.stop_if_asked()  # nothing acts any more
             played += 1
     interrupts.go_on()
@@ -116,21 +118,14 @@ def _driven(
 
 
 def _play(
-    bus: can.BusABC,
-    interrupts: Interrupts,
+    stage: Stage,
     scenario: Scenario,
     nodes: tuple[str, ...],
     recording: Recording,
     channel: str | None,
 ) -> Left:
     progress = StatusLine()
-    stage = Stage(
-        bus,
-        is_over=lambda: interrupts.is_over,
-        watch=partial(_draw, progress, recording),
-        warn=lambda: warn(HUNG),
-    )
-    interrupts.at_once, interrupts.hangs = stage.send_safe_codes, lambda: stage.hangs
+    stage.watch = partial(_draw, progress, recording)
     try:
         stage.play(scenario, nodes, _noting(recording, channel))
     finally:

@@ -163,7 +163,7 @@ class Driving:
                 self._send_safe_codes(simulation, ())
             elif simulation.bmu and passed < _LEAVING_AT_LEAST:
                 self._send_those_of(simulation.bmu)
-            if passed + _SLICE >= _LEAVING_AT_LEAST and self._are_off(simulation):
+            if passed + _SLICE >= _LEAVING_AT_LEAST - _MOMENT and self._are_off(simulation):
                 return Left.SAFE
         return Left.UNKNOWN
 

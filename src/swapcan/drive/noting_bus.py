@@ -45,6 +45,8 @@ class NotingBus(can.BusABC):
         Of those who send; on a simulated one frames must have its times.
     played
         Identifiers that nobody else may send: ``intruder`` is a frame of somebody who does.
+    echoes
+        What was sent on the same bus before, and may still come back.
 
     ``may_act`` is called before a code that acts is sent, and keeps it back by raising. ``latest``
     is the last frame of others, by identifier; none from before the last code that acts.
@@ -57,13 +59,14 @@ class NotingBus(can.BusABC):
         *,
         clock: Clock | None = None,
         played: Collection[int] = (),
+        echoes: Echoes | None = None,
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
         self._played = frozenset(played)
         self._times = FrameTimes(self._clock)
         self._record = InOrder(note)
-        self._echoes = Echoes()
+        self._echoes = echoes or Echoes()
         self._codec = Codec()
         self._commands = SentCommands()
         self._acting_ids = {kind.FRAME_ID for kind in PROTOCOL.messages if acting_fields(kind)}

@@ -10,6 +10,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.live.scenario import Scenario, ScenarioError
 from swapcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
+from swapcan.drive.echoes import Echoes
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from swapcan.simulate.shared_bus import SharedBus
@@ -24,7 +25,7 @@ Note = Callable[[can.Message], object]
 
 
 class Stage:
-    """Where scenarios are played.
+    """Where scenarios are played, one after the other.
 
     Parameters
     ----------
@@ -41,7 +42,8 @@ class Stage:
     warn
         Is told, in a thread of its own, that the program hangs and the pack was told to switch off.
 
-    ``left`` is how the scenario that was played last has left the pack.
+    ``left`` is how the scenario that was played last has left the pack; ``watch`` may be another
+    one for the next.
     """
 
     def __init__(
@@ -58,8 +60,9 @@ class Stage:
         self._clock = clock or SystemClock()
         self._wires = wires
         self._is_over = is_over
-        self._watch = watch
+        self.watch = watch
         self._warn = warn
+        self._echoes = Echoes()
         self._driven: NotingBus | None = None
         self._driving: Driving | None = None
         self.left = Left.UNTOUCHED
@@ -87,14 +90,16 @@ class Stage:
         """
         self.left = Left.UNTOUCHED
         played = [kind.FRAME_ID for node in nodes for kind in PROTOCOL.sent_by(node)]
-        with NotingBus(self._bus, note, clock=self._clock, played=played) as bus:
+        with NotingBus(
+            self._bus, note, clock=self._clock, played=played, echoes=self._echoes
+        ) as bus:
             self._driven = bus
             self._driving = driving = Driving(
                 [bus],
                 clock=self._clock,
                 wires=self._wires,
                 is_over=self._is_over,
-                watch=self._watch,
+                watch=self.watch,
                 warn=self._warn,
             )
             try:
