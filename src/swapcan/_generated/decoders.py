@@ -17,203 +17,203 @@ Decoder = Callable[[Sequence[int]], Message]
 INVALID = SignalState.INVALID
 ABNORMAL = SignalState.ABNORMAL
 
-_ACCESSORY_HV_COMMAND_2 = code_table(enums.AccessoryHvCommand, 2)
-_ACCESSORY_RELAY_STATE_1 = code_table(enums.AccessoryRelayState, 1)
-_BALANCING_STATE_1 = code_table(enums.BalancingState, 1)
-_BATTERY_TYPE_4 = code_table(enums.BatteryType, 4)
-_BATT_INFO_REQUEST_2 = code_table(enums.BattInfoRequest, 2)
-_BMS_STATE_2 = code_table(enums.BmsState, 2)
-_CHARACTER_8 = code_table(messages.V2B_VIN.FIELDS["b1_8_15"].labels, 8)
-_CHARGER_FAULT_1 = code_table(enums.ChargerFault, 1)
-_CHARGER_OPERATION_1 = code_table(enums.ChargerOperation, 1)
-_CHARGER_TIMEOUT_1 = code_table(enums.ChargerTimeout, 1)
-_CHARGE_CONTROL_2 = code_table(enums.ChargeControl, 2)
-_CHARGE_LINE_1 = code_table(enums.ChargeLine, 1)
-_CHARGE_MODE_2 = code_table(enums.ChargeMode, 2)
-_CHARGE_STATE_2 = code_table(enums.ChargeState, 2)
-_CONNECTOR_STATE_2 = code_table(enums.ConnectorState, 2)
-_CONTACTOR_FAULT_2 = code_table(enums.ContactorFault, 2)
-_COOLING_TYPE_2 = code_table(enums.CoolingType, 2)
-_FAULT_FLAG_1 = code_table(enums.FaultFlag, 1)
-_FAULT_LEVEL_2 = code_table(enums.FaultLevel, 2)
-_HEAT_COMMAND_2 = code_table(enums.HeatCommand, 2)
-_HV_COMMAND_2 = code_table(enums.HvCommand, 2)
-_HV_OFF_REQUEST_2 = code_table(enums.HvOffRequest, 2)
-_HV_RELAY_STATE_2 = code_table(enums.HvRelayState, 2)
-_HV_REQUEST_2 = code_table(enums.HvRequest, 2)
-_LOCK_STATE_2 = code_table(enums.LockState, 2)
-_MANUFACTURER_3 = code_table(enums.Manufacturer, 3)
-_PACK_CODE_LENGTH_5 = code_table(enums.PackCodeLength, 5)
-_PLUG_FAULT_LEVEL_2 = code_table(enums.PlugFaultLevel, 2)
-_RELAY_STATE_2 = code_table(enums.RelayState, 2)
-_SYS_CODE_REQUEST_2 = code_table(enums.SysCodeRequest, 2)
-_THERMAL_MODE_2 = code_table(enums.ThermalMode, 2)
-_VIN_REQUEST_2 = code_table(enums.VinRequest, 2)
-_WARNING_LEVEL_2 = code_table(enums.WarningLevel, 2)
+_codes_AccessoryHvCommand_2 = code_table(enums.AccessoryHvCommand, 2)
+_codes_AccessoryRelayState_1 = code_table(enums.AccessoryRelayState, 1)
+_codes_BalancingState_1 = code_table(enums.BalancingState, 1)
+_codes_BattInfoRequest_2 = code_table(enums.BattInfoRequest, 2)
+_codes_BatteryType_4 = code_table(enums.BatteryType, 4)
+_codes_BmsState_2 = code_table(enums.BmsState, 2)
+_codes_Character_8 = code_table(messages.V2B_VIN.FIELDS["b1_8_15"].labels, 8)
+_codes_ChargeControl_2 = code_table(enums.ChargeControl, 2)
+_codes_ChargeLine_1 = code_table(enums.ChargeLine, 1)
+_codes_ChargeMode_2 = code_table(enums.ChargeMode, 2)
+_codes_ChargeState_2 = code_table(enums.ChargeState, 2)
+_codes_ChargerFault_1 = code_table(enums.ChargerFault, 1)
+_codes_ChargerOperation_1 = code_table(enums.ChargerOperation, 1)
+_codes_ChargerTimeout_1 = code_table(enums.ChargerTimeout, 1)
+_codes_ConnectorState_2 = code_table(enums.ConnectorState, 2)
+_codes_ContactorFault_2 = code_table(enums.ContactorFault, 2)
+_codes_CoolingType_2 = code_table(enums.CoolingType, 2)
+_codes_FaultFlag_1 = code_table(enums.FaultFlag, 1)
+_codes_FaultLevel_2 = code_table(enums.FaultLevel, 2)
+_codes_HeatCommand_2 = code_table(enums.HeatCommand, 2)
+_codes_HvCommand_2 = code_table(enums.HvCommand, 2)
+_codes_HvOffRequest_2 = code_table(enums.HvOffRequest, 2)
+_codes_HvRelayState_2 = code_table(enums.HvRelayState, 2)
+_codes_HvRequest_2 = code_table(enums.HvRequest, 2)
+_codes_LockState_2 = code_table(enums.LockState, 2)
+_codes_Manufacturer_3 = code_table(enums.Manufacturer, 3)
+_codes_PackCodeLength_5 = code_table(enums.PackCodeLength, 5)
+_codes_PlugFaultLevel_2 = code_table(enums.PlugFaultLevel, 2)
+_codes_RelayState_2 = code_table(enums.RelayState, 2)
+_codes_SysCodeRequest_2 = code_table(enums.SysCodeRequest, 2)
+_codes_ThermalMode_2 = code_table(enums.ThermalMode, 2)
+_codes_VinRequest_2 = code_table(enums.VinRequest, 2)
+_codes_WarningLevel_2 = code_table(enums.WarningLevel, 2)
 
-_V2B_CMD = draft_of(messages.V2B_CMD)
-_B2V_RQ = draft_of(messages.B2V_RQ)
-_V2B_VIN = draft_of(messages.V2B_VIN)
-_V2B_RQData = draft_of(messages.V2B_RQData)
-_B2V_SysCode1 = draft_of(messages.B2V_SysCode1)
-_B2V_SysCode2 = draft_of(messages.B2V_SysCode2)
-_B2V_SysCode3 = draft_of(messages.B2V_SysCode3)
-_B2V_SysCode4 = draft_of(messages.B2V_SysCode4)
-_B2V_BattInfo1 = draft_of(messages.B2V_BattInfo1)
-_B2V_BattInfo2 = draft_of(messages.B2V_BattInfo2)
-_B2V_Ucell = draft_of(messages.B2V_Ucell)
-_B2V_Temp = draft_of(messages.B2V_Temp)
-_B2V_ST0 = draft_of(messages.B2V_ST0)
-_B2V_ST1 = draft_of(messages.B2V_ST1)
-_B2V_ST2 = draft_of(messages.B2V_ST2)
-_B2V_ST3 = draft_of(messages.B2V_ST3)
-_B2V_ST4 = draft_of(messages.B2V_ST4)
-_B2V_ST5 = draft_of(messages.B2V_ST5)
-_B2V_ST6 = draft_of(messages.B2V_ST6)
-_B2V_ElecEnergy = draft_of(messages.B2V_ElecEnergy)
-_B2C_Charger = draft_of(messages.B2C_Charger)
-_C2B_ACStatus = draft_of(messages.C2B_ACStatus)
-_BMS_TMS_0 = draft_of(messages.BMS_TMS_0)
-_TMS_BMS_0 = draft_of(messages.TMS_BMS_0)
-_BSU_BMS_0 = draft_of(messages.BSU_BMS_0)
+_new_V2B_CMD = draft_of(messages.V2B_CMD)
+_new_B2V_RQ = draft_of(messages.B2V_RQ)
+_new_V2B_VIN = draft_of(messages.V2B_VIN)
+_new_V2B_RQData = draft_of(messages.V2B_RQData)
+_new_B2V_SysCode1 = draft_of(messages.B2V_SysCode1)
+_new_B2V_SysCode2 = draft_of(messages.B2V_SysCode2)
+_new_B2V_SysCode3 = draft_of(messages.B2V_SysCode3)
+_new_B2V_SysCode4 = draft_of(messages.B2V_SysCode4)
+_new_B2V_BattInfo1 = draft_of(messages.B2V_BattInfo1)
+_new_B2V_BattInfo2 = draft_of(messages.B2V_BattInfo2)
+_new_B2V_Ucell = draft_of(messages.B2V_Ucell)
+_new_B2V_Temp = draft_of(messages.B2V_Temp)
+_new_B2V_ST0 = draft_of(messages.B2V_ST0)
+_new_B2V_ST1 = draft_of(messages.B2V_ST1)
+_new_B2V_ST2 = draft_of(messages.B2V_ST2)
+_new_B2V_ST3 = draft_of(messages.B2V_ST3)
+_new_B2V_ST4 = draft_of(messages.B2V_ST4)
+_new_B2V_ST5 = draft_of(messages.B2V_ST5)
+_new_B2V_ST6 = draft_of(messages.B2V_ST6)
+_new_B2V_ElecEnergy = draft_of(messages.B2V_ElecEnergy)
+_new_B2C_Charger = draft_of(messages.B2C_Charger)
+_new_C2B_ACStatus = draft_of(messages.C2B_ACStatus)
+_new_BMS_TMS_0 = draft_of(messages.BMS_TMS_0)
+_new_TMS_BMS_0 = draft_of(messages.TMS_BMS_0)
+_new_BSU_BMS_0 = draft_of(messages.BSU_BMS_0)
 
 
-def _v2b_cmd(v: Sequence[int]) -> messages.V2B_CMD:
-    m: Any = _V2B_CMD()
+def _decode_V2B_CMD(v: Sequence[int]) -> messages.V2B_CMD:
+    m: Any = _new_V2B_CMD()
     m.checksum = v[0]
     m.aliv = INVALID if v[1] == 15 else v[1]
-    m.hv_on_off = _HV_COMMAND_2[v[2]]
-    m.hv_acc_on_off = _ACCESSORY_HV_COMMAND_2[v[3]]
+    m.hv_on_off = _codes_HvCommand_2[v[2]]
+    m.hv_acc_on_off = _codes_AccessoryHvCommand_2[v[3]]
     m.vehicle_speed = float(v[4])
-    m.heat_on_off = _HEAT_COMMAND_2[v[5]]
-    m.main_pos_relay_st = _RELAY_STATE_2[v[6]]
-    m.main_neg_relay_st = _RELAY_STATE_2[v[7]]
-    m.prechg_relay_st = _RELAY_STATE_2[v[8]]
-    m.att_relay_st = _RELAY_STATE_2[v[9]]
-    m.main_motor_con_st = _RELAY_STATE_2[v[10]]
-    m.main_motor_con_flt = _CONTACTOR_FAULT_2[v[11]]
-    m.att_con_st1 = _RELAY_STATE_2[v[12]]
-    m.att_con_flt1 = _CONTACTOR_FAULT_2[v[13]]
-    m.att_con_st2 = _RELAY_STATE_2[v[14]]
-    m.att_con_flt2 = _CONTACTOR_FAULT_2[v[15]]
-    m.att_con_st3 = _RELAY_STATE_2[v[16]]
-    m.att_con_flt3 = _CONTACTOR_FAULT_2[v[17]]
-    m.att_con_st4 = _RELAY_STATE_2[v[18]]
-    m.att_con_flt4 = _CONTACTOR_FAULT_2[v[19]]
+    m.heat_on_off = _codes_HeatCommand_2[v[5]]
+    m.main_pos_relay_st = _codes_RelayState_2[v[6]]
+    m.main_neg_relay_st = _codes_RelayState_2[v[7]]
+    m.prechg_relay_st = _codes_RelayState_2[v[8]]
+    m.att_relay_st = _codes_RelayState_2[v[9]]
+    m.main_motor_con_st = _codes_RelayState_2[v[10]]
+    m.main_motor_con_flt = _codes_ContactorFault_2[v[11]]
+    m.att_con_st1 = _codes_RelayState_2[v[12]]
+    m.att_con_flt1 = _codes_ContactorFault_2[v[13]]
+    m.att_con_st2 = _codes_RelayState_2[v[14]]
+    m.att_con_flt2 = _codes_ContactorFault_2[v[15]]
+    m.att_con_st3 = _codes_RelayState_2[v[16]]
+    m.att_con_flt3 = _codes_ContactorFault_2[v[17]]
+    m.att_con_st4 = _codes_RelayState_2[v[18]]
+    m.att_con_flt4 = _codes_ContactorFault_2[v[19]]
     m.__class__ = messages.V2B_CMD
     decoded: messages.V2B_CMD = m
     return decoded
 
 
-def _b2v_rq(v: Sequence[int]) -> messages.B2V_RQ:
-    m: Any = _B2V_RQ()
-    m.vin = _VIN_REQUEST_2[v[0]]
-    m.hv_off = _HV_OFF_REQUEST_2[v[1]]
+def _decode_B2V_RQ(v: Sequence[int]) -> messages.B2V_RQ:
+    m: Any = _new_B2V_RQ()
+    m.vin = _codes_VinRequest_2[v[0]]
+    m.hv_off = _codes_HvOffRequest_2[v[1]]
     m.__class__ = messages.B2V_RQ
     decoded: messages.B2V_RQ = m
     return decoded
 
 
-def _v2b_vin(v: Sequence[int]) -> messages.V2B_VIN:
-    m: Any = _V2B_VIN()
+def _decode_V2B_VIN(v: Sequence[int]) -> messages.V2B_VIN:
+    m: Any = _new_V2B_VIN()
     m.frame_no = v[0]
-    m.b1_8_15 = _CHARACTER_8[v[1]]
-    m.b2_9_16 = _CHARACTER_8[v[2]]
-    m.b3_10_17 = _CHARACTER_8[v[3]]
-    m.b4_11 = _CHARACTER_8[v[4]]
-    m.b5_12 = _CHARACTER_8[v[5]]
-    m.b6_13 = _CHARACTER_8[v[6]]
-    m.b7_14 = _CHARACTER_8[v[7]]
+    m.b1_8_15 = _codes_Character_8[v[1]]
+    m.b2_9_16 = _codes_Character_8[v[2]]
+    m.b3_10_17 = _codes_Character_8[v[3]]
+    m.b4_11 = _codes_Character_8[v[4]]
+    m.b5_12 = _codes_Character_8[v[5]]
+    m.b6_13 = _codes_Character_8[v[6]]
+    m.b7_14 = _codes_Character_8[v[7]]
     m.__class__ = messages.V2B_VIN
     decoded: messages.V2B_VIN = m
     return decoded
 
 
-def _v2b_rqdata(v: Sequence[int]) -> messages.V2B_RQData:
-    m: Any = _V2B_RQData()
+def _decode_V2B_RQData(v: Sequence[int]) -> messages.V2B_RQData:
+    m: Any = _new_V2B_RQData()
     m.checksum = v[0]
-    m.rq_batt_info = _BATT_INFO_REQUEST_2[v[1]]
-    m.rq_sys_code = _SYS_CODE_REQUEST_2[v[2]]
+    m.rq_batt_info = _codes_BattInfoRequest_2[v[1]]
+    m.rq_sys_code = _codes_SysCodeRequest_2[v[2]]
     m.__class__ = messages.V2B_RQData
     decoded: messages.V2B_RQData = m
     return decoded
 
 
-def _b2v_syscode1(v: Sequence[int]) -> messages.B2V_SysCode1:
-    m: Any = _B2V_SysCode1()
+def _decode_B2V_SysCode1(v: Sequence[int]) -> messages.B2V_SysCode1:
+    m: Any = _new_B2V_SysCode1()
     m.checksum = v[0]
-    m.manufacturer = _MANUFACTURER_3[v[1]]
-    m.sys_code_length = _PACK_CODE_LENGTH_5[v[2]]
-    m.sys_code_b1 = _CHARACTER_8[v[3]]
-    m.sys_code_b2 = _CHARACTER_8[v[4]]
-    m.sys_code_b3 = _CHARACTER_8[v[5]]
-    m.sys_code_b4 = _CHARACTER_8[v[6]]
-    m.sys_code_b5 = _CHARACTER_8[v[7]]
-    m.sys_code_b6 = _CHARACTER_8[v[8]]
+    m.manufacturer = _codes_Manufacturer_3[v[1]]
+    m.sys_code_length = _codes_PackCodeLength_5[v[2]]
+    m.sys_code_b1 = _codes_Character_8[v[3]]
+    m.sys_code_b2 = _codes_Character_8[v[4]]
+    m.sys_code_b3 = _codes_Character_8[v[5]]
+    m.sys_code_b4 = _codes_Character_8[v[6]]
+    m.sys_code_b5 = _codes_Character_8[v[7]]
+    m.sys_code_b6 = _codes_Character_8[v[8]]
     m.__class__ = messages.B2V_SysCode1
     decoded: messages.B2V_SysCode1 = m
     return decoded
 
 
-def _b2v_syscode2(v: Sequence[int]) -> messages.B2V_SysCode2:
-    m: Any = _B2V_SysCode2()
+def _decode_B2V_SysCode2(v: Sequence[int]) -> messages.B2V_SysCode2:
+    m: Any = _new_B2V_SysCode2()
     m.checksum = v[0]
-    m.sys_code_b7 = _CHARACTER_8[v[1]]
-    m.sys_code_b8 = _CHARACTER_8[v[2]]
-    m.sys_code_b9 = _CHARACTER_8[v[3]]
-    m.sys_code_b10 = _CHARACTER_8[v[4]]
-    m.sys_code_b11 = _CHARACTER_8[v[5]]
-    m.sys_code_b12 = _CHARACTER_8[v[6]]
-    m.sys_code_b13 = _CHARACTER_8[v[7]]
+    m.sys_code_b7 = _codes_Character_8[v[1]]
+    m.sys_code_b8 = _codes_Character_8[v[2]]
+    m.sys_code_b9 = _codes_Character_8[v[3]]
+    m.sys_code_b10 = _codes_Character_8[v[4]]
+    m.sys_code_b11 = _codes_Character_8[v[5]]
+    m.sys_code_b12 = _codes_Character_8[v[6]]
+    m.sys_code_b13 = _codes_Character_8[v[7]]
     m.__class__ = messages.B2V_SysCode2
     decoded: messages.B2V_SysCode2 = m
     return decoded
 
 
-def _b2v_syscode3(v: Sequence[int]) -> messages.B2V_SysCode3:
-    m: Any = _B2V_SysCode3()
+def _decode_B2V_SysCode3(v: Sequence[int]) -> messages.B2V_SysCode3:
+    m: Any = _new_B2V_SysCode3()
     m.checksum = v[0]
-    m.sys_code_b14 = _CHARACTER_8[v[1]]
-    m.sys_code_b15 = _CHARACTER_8[v[2]]
-    m.sys_code_b16 = _CHARACTER_8[v[3]]
-    m.sys_code_b17 = _CHARACTER_8[v[4]]
-    m.sys_code_b18 = _CHARACTER_8[v[5]]
-    m.sys_code_b19 = _CHARACTER_8[v[6]]
-    m.sys_code_b20 = _CHARACTER_8[v[7]]
+    m.sys_code_b14 = _codes_Character_8[v[1]]
+    m.sys_code_b15 = _codes_Character_8[v[2]]
+    m.sys_code_b16 = _codes_Character_8[v[3]]
+    m.sys_code_b17 = _codes_Character_8[v[4]]
+    m.sys_code_b18 = _codes_Character_8[v[5]]
+    m.sys_code_b19 = _codes_Character_8[v[6]]
+    m.sys_code_b20 = _codes_Character_8[v[7]]
     m.__class__ = messages.B2V_SysCode3
     decoded: messages.B2V_SysCode3 = m
     return decoded
 
 
-def _b2v_syscode4(v: Sequence[int]) -> messages.B2V_SysCode4:
-    m: Any = _B2V_SysCode4()
+def _decode_B2V_SysCode4(v: Sequence[int]) -> messages.B2V_SysCode4:
+    m: Any = _new_B2V_SysCode4()
     m.checksum = v[0]
-    m.sys_code_b21 = _CHARACTER_8[v[1]]
-    m.sys_code_b22 = _CHARACTER_8[v[2]]
-    m.sys_code_b23 = _CHARACTER_8[v[3]]
-    m.sys_code_b24 = _CHARACTER_8[v[4]]
-    m.sys_code_b25 = _CHARACTER_8[v[5]]
-    m.sys_code_b26 = _CHARACTER_8[v[6]]
-    m.sys_code_b27 = _CHARACTER_8[v[7]]
+    m.sys_code_b21 = _codes_Character_8[v[1]]
+    m.sys_code_b22 = _codes_Character_8[v[2]]
+    m.sys_code_b23 = _codes_Character_8[v[3]]
+    m.sys_code_b24 = _codes_Character_8[v[4]]
+    m.sys_code_b25 = _codes_Character_8[v[5]]
+    m.sys_code_b26 = _codes_Character_8[v[6]]
+    m.sys_code_b27 = _codes_Character_8[v[7]]
     m.__class__ = messages.B2V_SysCode4
     decoded: messages.B2V_SysCode4 = m
     return decoded
 
 
-def _b2v_battinfo1(v: Sequence[int]) -> messages.B2V_BattInfo1:
-    m: Any = _B2V_BattInfo1()
+def _decode_B2V_BattInfo1(v: Sequence[int]) -> messages.B2V_BattInfo1:
+    m: Any = _new_B2V_BattInfo1()
     m.rate_cap = INVALID if v[0] == 65535 else float(v[0])
     m.rate_h_volt = INVALID if v[1] == 65535 else v[1] * 0.1
     m.rate_power = INVALID if v[2] == 65535 else v[2] * 0.1
-    m.batt_type = _BATTERY_TYPE_4[v[3]]
-    m.cool_type = _COOLING_TYPE_2[v[4]]
+    m.batt_type = _codes_BatteryType_4[v[3]]
+    m.cool_type = _codes_CoolingType_2[v[4]]
     m.__class__ = messages.B2V_BattInfo1
     decoded: messages.B2V_BattInfo1 = m
     return decoded
 
 
-def _b2v_battinfo2(v: Sequence[int]) -> messages.B2V_BattInfo2:
-    m: Any = _B2V_BattInfo2()
+def _decode_B2V_BattInfo2(v: Sequence[int]) -> messages.B2V_BattInfo2:
+    m: Any = _new_B2V_BattInfo2()
     m.tot_csc_num = v[0]
     m.tot_cell_num = v[1]
     m.tot_temp_num = v[2]
@@ -225,8 +225,8 @@ def _b2v_battinfo2(v: Sequence[int]) -> messages.B2V_BattInfo2:
     return decoded
 
 
-def _b2v_ucell(v: Sequence[int]) -> messages.B2V_Ucell:
-    m: Any = _B2V_Ucell()
+def _decode_B2V_Ucell(v: Sequence[int]) -> messages.B2V_Ucell:
+    m: Any = _new_B2V_Ucell()
     m.frame_no = v[0]
     m.csc_no = INVALID if v[1] == 255 else v[1]
     m.csc_no_ucell_n = INVALID if v[2] == 65535 else v[2] * 0.001
@@ -237,8 +237,8 @@ def _b2v_ucell(v: Sequence[int]) -> messages.B2V_Ucell:
     return decoded
 
 
-def _b2v_temp(v: Sequence[int]) -> messages.B2V_Temp:
-    m: Any = _B2V_Temp()
+def _decode_B2V_Temp(v: Sequence[int]) -> messages.B2V_Temp:
+    m: Any = _new_B2V_Temp()
     m.frame_no = v[0]
     m.csc_no = INVALID if v[1] == 255 else v[1]
     m.csc_no_temp_n = INVALID if v[2] == 255 else v[2] - 50.0
@@ -252,39 +252,39 @@ def _b2v_temp(v: Sequence[int]) -> messages.B2V_Temp:
     return decoded
 
 
-def _b2v_st0(v: Sequence[int]) -> messages.B2V_ST0:
-    m: Any = _B2V_ST0()
+def _decode_B2V_ST0(v: Sequence[int]) -> messages.B2V_ST0:
+    m: Any = _new_B2V_ST0()
     m.rechrgeable_dev_no = v[0]
-    m.flt_main_pos_relay_weld = _FAULT_FLAG_1[v[1]]
-    m.flt_main_neg_relay_weld = _FAULT_FLAG_1[v[2]]
-    m.flt_chg_pos_relay1_weld = _FAULT_FLAG_1[v[3]]
-    m.flt_chg_neg_relay1_weld = _FAULT_FLAG_1[v[4]]
-    m.flt_chg_pos_relay2_weld = _FAULT_FLAG_1[v[5]]
-    m.flt_chg_neg_relay2_weld = _FAULT_FLAG_1[v[6]]
-    m.flt_heat_relay1_weld = _FAULT_FLAG_1[v[7]]
-    m.flt_heat_relay2_weld = _FAULT_FLAG_1[v[8]]
-    m.st_main_pos = _RELAY_STATE_2[v[9]]
-    m.st_main_neg = _RELAY_STATE_2[v[10]]
-    m.st_prechg = _RELAY_STATE_2[v[11]]
-    m.st_chg_pos1 = _RELAY_STATE_2[v[12]]
-    m.st_chg_neg1 = _RELAY_STATE_2[v[13]]
-    m.st_chg_pos2 = _RELAY_STATE_2[v[14]]
-    m.st_chg_neg2 = _RELAY_STATE_2[v[15]]
-    m.flt_acc_relay_weld = _FAULT_FLAG_1[v[16]]
-    m.flt_branch_open = _FAULT_FLAG_1[v[17]]
-    m.flt_feedback_chg_oc = _FAULT_LEVEL_2[v[18]]
-    m.flt_main_pos_relay_open = _FAULT_FLAG_1[v[19]]
-    m.flt_main_neg_relay_open = _FAULT_FLAG_1[v[20]]
-    m.flt_chg_pos_relay1_open = _FAULT_FLAG_1[v[21]]
-    m.flt_chg_pos_relay2_open = _FAULT_FLAG_1[v[22]]
-    m.flt_chg_neg_relay1_open = _FAULT_FLAG_1[v[23]]
-    m.flt_chg_neg_relay2_open = _FAULT_FLAG_1[v[24]]
-    m.flt_heat_or_tms_relay_weld = _FAULT_FLAG_1[v[25]]
-    m.flt_heat_or_tms_relay_open = _FAULT_FLAG_1[v[26]]
-    m.flt_tms_system = _FAULT_FLAG_1[v[27]]
-    m.flt_power_supply = _FAULT_FLAG_1[v[28]]
-    m.flt_pack_self_protect = _FAULT_FLAG_1[v[29]]
-    m.flt_chg_plug_ot = _PLUG_FAULT_LEVEL_2[v[30]]
+    m.flt_main_pos_relay_weld = _codes_FaultFlag_1[v[1]]
+    m.flt_main_neg_relay_weld = _codes_FaultFlag_1[v[2]]
+    m.flt_chg_pos_relay1_weld = _codes_FaultFlag_1[v[3]]
+    m.flt_chg_neg_relay1_weld = _codes_FaultFlag_1[v[4]]
+    m.flt_chg_pos_relay2_weld = _codes_FaultFlag_1[v[5]]
+    m.flt_chg_neg_relay2_weld = _codes_FaultFlag_1[v[6]]
+    m.flt_heat_relay1_weld = _codes_FaultFlag_1[v[7]]
+    m.flt_heat_relay2_weld = _codes_FaultFlag_1[v[8]]
+    m.st_main_pos = _codes_RelayState_2[v[9]]
+    m.st_main_neg = _codes_RelayState_2[v[10]]
+    m.st_prechg = _codes_RelayState_2[v[11]]
+    m.st_chg_pos1 = _codes_RelayState_2[v[12]]
+    m.st_chg_neg1 = _codes_RelayState_2[v[13]]
+    m.st_chg_pos2 = _codes_RelayState_2[v[14]]
+    m.st_chg_neg2 = _codes_RelayState_2[v[15]]
+    m.flt_acc_relay_weld = _codes_FaultFlag_1[v[16]]
+    m.flt_branch_open = _codes_FaultFlag_1[v[17]]
+    m.flt_feedback_chg_oc = _codes_FaultLevel_2[v[18]]
+    m.flt_main_pos_relay_open = _codes_FaultFlag_1[v[19]]
+    m.flt_main_neg_relay_open = _codes_FaultFlag_1[v[20]]
+    m.flt_chg_pos_relay1_open = _codes_FaultFlag_1[v[21]]
+    m.flt_chg_pos_relay2_open = _codes_FaultFlag_1[v[22]]
+    m.flt_chg_neg_relay1_open = _codes_FaultFlag_1[v[23]]
+    m.flt_chg_neg_relay2_open = _codes_FaultFlag_1[v[24]]
+    m.flt_heat_or_tms_relay_weld = _codes_FaultFlag_1[v[25]]
+    m.flt_heat_or_tms_relay_open = _codes_FaultFlag_1[v[26]]
+    m.flt_tms_system = _codes_FaultFlag_1[v[27]]
+    m.flt_power_supply = _codes_FaultFlag_1[v[28]]
+    m.flt_pack_self_protect = _codes_FaultFlag_1[v[29]]
+    m.flt_chg_plug_ot = _codes_PlugFaultLevel_2[v[30]]
     m.rechrgeable_dev_num = v[31]
     m.battery_fault_no = v[32]
     m.__class__ = messages.B2V_ST0
@@ -292,46 +292,46 @@ def _b2v_st0(v: Sequence[int]) -> messages.B2V_ST0:
     return decoded
 
 
-def _b2v_st1(v: Sequence[int]) -> messages.B2V_ST1:
-    m: Any = _B2V_ST1()
+def _decode_B2V_ST1(v: Sequence[int]) -> messages.B2V_ST1:
+    m: Any = _new_B2V_ST1()
     m.checksum = v[0]
     m.aliv = INVALID if v[1] == 15 else v[1]
-    m.bms = _BMS_STATE_2[v[2]]
-    m.acc_relay = _ACCESSORY_RELAY_STATE_1[v[3]]
-    m.balance = _BALANCING_STATE_1[v[4]]
-    m.chg_line = _CHARGE_LINE_1[v[5]]
-    m.chg_mode = _CHARGE_MODE_2[v[6]]
-    m.chg_st = _CHARGE_STATE_2[v[7]]
-    m.fault_levl = _FAULT_LEVEL_2[v[8]]
-    m.flt_del_temp = _FAULT_LEVEL_2[v[9]]
-    m.flt_over_temp = _FAULT_LEVEL_2[v[10]]
-    m.flt_over_h_volt = _FAULT_LEVEL_2[v[11]]
-    m.flt_low_h_volt = _FAULT_LEVEL_2[v[12]]
-    m.flt_low_soc = _FAULT_LEVEL_2[v[13]]
-    m.flt_over_ucell = _FAULT_LEVEL_2[v[14]]
-    m.flt_low_ucell = _FAULT_LEVEL_2[v[15]]
-    m.flt_low_ins_res = _FAULT_LEVEL_2[v[16]]
-    m.flt_ucell_uniformity = _FAULT_LEVEL_2[v[17]]
-    m.flt_over_chg = _FAULT_LEVEL_2[v[18]]
-    m.flt_over_dis_chg = _FAULT_LEVEL_2[v[19]]
-    m.flt_low_temp = _FAULT_LEVEL_2[v[20]]
-    m.flt_del_para_u = _FAULT_LEVEL_2[v[21]]
-    m.flt_hw = _FAULT_LEVEL_2[v[22]]
-    m.flt_over_soc = _FAULT_FLAG_1[v[23]]
-    m.flt_soc_jump = _FAULT_FLAG_1[v[24]]
-    m.flt_local_comm = _FAULT_FLAG_1[v[25]]
-    m.flt_sys_not_matched = _FAULT_FLAG_1[v[26]]
-    m.flt_hvil = _FAULT_FLAG_1[v[27]]
-    m.flt_fog = _FAULT_FLAG_1[v[28]]
-    m.flt_fire = _FAULT_FLAG_1[v[29]]
+    m.bms = _codes_BmsState_2[v[2]]
+    m.acc_relay = _codes_AccessoryRelayState_1[v[3]]
+    m.balance = _codes_BalancingState_1[v[4]]
+    m.chg_line = _codes_ChargeLine_1[v[5]]
+    m.chg_mode = _codes_ChargeMode_2[v[6]]
+    m.chg_st = _codes_ChargeState_2[v[7]]
+    m.fault_levl = _codes_FaultLevel_2[v[8]]
+    m.flt_del_temp = _codes_FaultLevel_2[v[9]]
+    m.flt_over_temp = _codes_FaultLevel_2[v[10]]
+    m.flt_over_h_volt = _codes_FaultLevel_2[v[11]]
+    m.flt_low_h_volt = _codes_FaultLevel_2[v[12]]
+    m.flt_low_soc = _codes_FaultLevel_2[v[13]]
+    m.flt_over_ucell = _codes_FaultLevel_2[v[14]]
+    m.flt_low_ucell = _codes_FaultLevel_2[v[15]]
+    m.flt_low_ins_res = _codes_FaultLevel_2[v[16]]
+    m.flt_ucell_uniformity = _codes_FaultLevel_2[v[17]]
+    m.flt_over_chg = _codes_FaultLevel_2[v[18]]
+    m.flt_over_dis_chg = _codes_FaultLevel_2[v[19]]
+    m.flt_low_temp = _codes_FaultLevel_2[v[20]]
+    m.flt_del_para_u = _codes_FaultLevel_2[v[21]]
+    m.flt_hw = _codes_FaultLevel_2[v[22]]
+    m.flt_over_soc = _codes_FaultFlag_1[v[23]]
+    m.flt_soc_jump = _codes_FaultFlag_1[v[24]]
+    m.flt_local_comm = _codes_FaultFlag_1[v[25]]
+    m.flt_sys_not_matched = _codes_FaultFlag_1[v[26]]
+    m.flt_hvil = _codes_FaultFlag_1[v[27]]
+    m.flt_fog = _codes_FaultFlag_1[v[28]]
+    m.flt_fire = _codes_FaultFlag_1[v[29]]
     m.gbt32960_flt_num = v[30]
     m.__class__ = messages.B2V_ST1
     decoded: messages.B2V_ST1 = m
     return decoded
 
 
-def _b2v_st2(v: Sequence[int]) -> messages.B2V_ST2:
-    m: Any = _B2V_ST2()
+def _decode_B2V_ST2(v: Sequence[int]) -> messages.B2V_ST2:
+    m: Any = _new_B2V_ST2()
     m.soc = INVALID if v[0] == 255 else v[0] * 0.4
     m.soh = INVALID if v[1] == 255 else v[1] * 0.4
     m.current = INVALID if v[2] == 65535 else v[2] * 0.1 - 1000.0
@@ -342,8 +342,8 @@ def _b2v_st2(v: Sequence[int]) -> messages.B2V_ST2:
     return decoded
 
 
-def _b2v_st3(v: Sequence[int]) -> messages.B2V_ST3:
-    m: Any = _B2V_ST3()
+def _decode_B2V_ST3(v: Sequence[int]) -> messages.B2V_ST3:
+    m: Any = _new_B2V_ST3()
     m.pos_ins_res = INVALID if v[0] == 65535 else float(v[0])
     m.neg_ins_res = INVALID if v[1] == 65535 else float(v[1])
     m.upack_batt = INVALID if v[2] == 65535 else v[2] * 0.1
@@ -353,8 +353,8 @@ def _b2v_st3(v: Sequence[int]) -> messages.B2V_ST3:
     return decoded
 
 
-def _b2v_st4(v: Sequence[int]) -> messages.B2V_ST4:
-    m: Any = _B2V_ST4()
+def _decode_B2V_ST4(v: Sequence[int]) -> messages.B2V_ST4:
+    m: Any = _new_B2V_ST4()
     m.max_temp = INVALID if v[0] == 255 else ABNORMAL if v[0] == 254 else v[0] - 50.0
     m.min_temp = INVALID if v[1] == 255 else ABNORMAL if v[1] == 254 else v[1] - 50.0
     m.avg_temp = INVALID if v[2] == 255 else ABNORMAL if v[2] == 254 else v[2] - 50.0
@@ -367,8 +367,8 @@ def _b2v_st4(v: Sequence[int]) -> messages.B2V_ST4:
     return decoded
 
 
-def _b2v_st5(v: Sequence[int]) -> messages.B2V_ST5:
-    m: Any = _B2V_ST5()
+def _decode_B2V_ST5(v: Sequence[int]) -> messages.B2V_ST5:
+    m: Any = _new_B2V_ST5()
     m.max_ucell = INVALID if v[0] == 8191 else ABNORMAL if v[0] == 8190 else v[0] * 0.001
     m.max_ucell_csc_no = INVALID if v[1] == 255 else v[1]
     m.max_ucell_position = v[2]
@@ -378,8 +378,8 @@ def _b2v_st5(v: Sequence[int]) -> messages.B2V_ST5:
     return decoded
 
 
-def _b2v_st6(v: Sequence[int]) -> messages.B2V_ST6:
-    m: Any = _B2V_ST6()
+def _decode_B2V_ST6(v: Sequence[int]) -> messages.B2V_ST6:
+    m: Any = _new_B2V_ST6()
     m.min_ucell = INVALID if v[0] == 8191 else ABNORMAL if v[0] == 8190 else v[0] * 0.001
     m.min_ucell_csc_no = INVALID if v[1] == 255 else v[1]
     m.min_ucell_position = v[2]
@@ -388,8 +388,8 @@ def _b2v_st6(v: Sequence[int]) -> messages.B2V_ST6:
     return decoded
 
 
-def _b2v_elecenergy(v: Sequence[int]) -> messages.B2V_ElecEnergy:
-    m: Any = _B2V_ElecEnergy()
+def _decode_B2V_ElecEnergy(v: Sequence[int]) -> messages.B2V_ElecEnergy:
+    m: Any = _new_B2V_ElecEnergy()
     m.tot_chg_energy = v[0] * 0.1
     m.tot_dischg_energy = v[1] * 0.1
     m.single_chg_energy = v[2] * 0.1
@@ -398,37 +398,37 @@ def _b2v_elecenergy(v: Sequence[int]) -> messages.B2V_ElecEnergy:
     return decoded
 
 
-def _b2c_charger(v: Sequence[int]) -> messages.B2C_Charger:
-    m: Any = _B2C_Charger()
+def _decode_B2C_Charger(v: Sequence[int]) -> messages.B2C_Charger:
+    m: Any = _new_B2C_Charger()
     m.voltage_set = v[0] * 0.1
     m.current_set = v[1] * 0.1
-    m.charge_control = _CHARGE_CONTROL_2[v[2]]
+    m.charge_control = _codes_ChargeControl_2[v[2]]
     m.__class__ = messages.B2C_Charger
     decoded: messages.B2C_Charger = m
     return decoded
 
 
-def _c2b_acstatus(v: Sequence[int]) -> messages.C2B_ACStatus:
-    m: Any = _C2B_ACStatus()
+def _decode_C2B_ACStatus(v: Sequence[int]) -> messages.C2B_ACStatus:
+    m: Any = _new_C2B_ACStatus()
     m.voltage_output = v[0] * 0.1
     m.current_output = v[1] * 0.1
-    m.charger_hardware = _CHARGER_FAULT_1[v[2]]
-    m.charger_over_temp = _CHARGER_FAULT_1[v[3]]
-    m.charger_input_voltage = _CHARGER_FAULT_1[v[4]]
-    m.charger_ready = _CHARGER_TIMEOUT_1[v[5]]
-    m.charger_start = _CHARGER_OPERATION_1[v[6]]
-    m.charger_can = _CHARGER_TIMEOUT_1[v[7]]
+    m.charger_hardware = _codes_ChargerFault_1[v[2]]
+    m.charger_over_temp = _codes_ChargerFault_1[v[3]]
+    m.charger_input_voltage = _codes_ChargerFault_1[v[4]]
+    m.charger_ready = _codes_ChargerTimeout_1[v[5]]
+    m.charger_start = _codes_ChargerOperation_1[v[6]]
+    m.charger_can = _codes_ChargerTimeout_1[v[7]]
     m.__class__ = messages.C2B_ACStatus
     decoded: messages.C2B_ACStatus = m
     return decoded
 
 
-def _bms_tms_0(v: Sequence[int]) -> messages.BMS_TMS_0:
-    m: Any = _BMS_TMS_0()
-    m.hv_rly_sts = _HV_RELAY_STATE_2[v[0]]
-    m.chrg_sts = _CHARGE_STATE_2[v[1]]
-    m.reqst_tms_hv_on = _HV_REQUEST_2[v[2]]
-    m.reqst_set_tms_sts = _THERMAL_MODE_2[v[3]]
+def _decode_BMS_TMS_0(v: Sequence[int]) -> messages.BMS_TMS_0:
+    m: Any = _new_BMS_TMS_0()
+    m.hv_rly_sts = _codes_HvRelayState_2[v[0]]
+    m.chrg_sts = _codes_ChargeState_2[v[1]]
+    m.reqst_tms_hv_on = _codes_HvRequest_2[v[2]]
+    m.reqst_set_tms_sts = _codes_ThermalMode_2[v[3]]
     m.volt = float(v[4])
     m.set_temp = v[5] - 40.0
     m.life = v[6]
@@ -438,56 +438,56 @@ def _bms_tms_0(v: Sequence[int]) -> messages.BMS_TMS_0:
     return decoded
 
 
-def _tms_bms_0(v: Sequence[int]) -> messages.TMS_BMS_0:
-    m: Any = _TMS_BMS_0()
-    m.hv_rly_sts = _HV_RELAY_STATE_2[v[0]]
-    m.work_sts = _THERMAL_MODE_2[v[1]]
+def _decode_TMS_BMS_0(v: Sequence[int]) -> messages.TMS_BMS_0:
+    m: Any = _new_TMS_BMS_0()
+    m.hv_rly_sts = _codes_HvRelayState_2[v[0]]
+    m.work_sts = _codes_ThermalMode_2[v[1]]
     m.output_water_temp = v[2] - 40.0
     m.input_water_temp = v[3] - 40.0
     m.reqst_cap = v[4]
-    m.fault_lv = _WARNING_LEVEL_2[v[5]]
+    m.fault_lv = _codes_WarningLevel_2[v[5]]
     m.fault_code = v[6]
     m.__class__ = messages.TMS_BMS_0
     decoded: messages.TMS_BMS_0 = m
     return decoded
 
 
-def _bsu_bms_0(v: Sequence[int]) -> messages.BSU_BMS_0:
-    m: Any = _BSU_BMS_0()
+def _decode_BSU_BMS_0(v: Sequence[int]) -> messages.BSU_BMS_0:
+    m: Any = _new_BSU_BMS_0()
     m.live = v[0]
-    m.lock = _LOCK_STATE_2[v[1]]
-    m.connect_st = _CONNECTOR_STATE_2[v[2]]
+    m.lock = _codes_LockState_2[v[1]]
+    m.connect_st = _codes_ConnectorState_2[v[2]]
     m.connector_temp = v[3] - 40.0
-    m.conctor_temp_warn = _WARNING_LEVEL_2[v[4]]
+    m.conctor_temp_warn = _codes_WarningLevel_2[v[4]]
     m.__class__ = messages.BSU_BMS_0
     decoded: messages.BSU_BMS_0 = m
     return decoded
 
 
 DECODERS: Mapping[type[Message], Decoder] = {
-    messages.V2B_CMD: _v2b_cmd,
-    messages.B2V_RQ: _b2v_rq,
-    messages.V2B_VIN: _v2b_vin,
-    messages.V2B_RQData: _v2b_rqdata,
-    messages.B2V_SysCode1: _b2v_syscode1,
-    messages.B2V_SysCode2: _b2v_syscode2,
-    messages.B2V_SysCode3: _b2v_syscode3,
-    messages.B2V_SysCode4: _b2v_syscode4,
-    messages.B2V_BattInfo1: _b2v_battinfo1,
-    messages.B2V_BattInfo2: _b2v_battinfo2,
-    messages.B2V_Ucell: _b2v_ucell,
-    messages.B2V_Temp: _b2v_temp,
-    messages.B2V_ST0: _b2v_st0,
-    messages.B2V_ST1: _b2v_st1,
-    messages.B2V_ST2: _b2v_st2,
-    messages.B2V_ST3: _b2v_st3,
-    messages.B2V_ST4: _b2v_st4,
-    messages.B2V_ST5: _b2v_st5,
-    messages.B2V_ST6: _b2v_st6,
-    messages.B2V_ElecEnergy: _b2v_elecenergy,
-    messages.B2C_Charger: _b2c_charger,
-    messages.C2B_ACStatus: _c2b_acstatus,
-    messages.BMS_TMS_0: _bms_tms_0,
-    messages.TMS_BMS_0: _tms_bms_0,
-    messages.BSU_BMS_0: _bsu_bms_0,
+    messages.V2B_CMD: _decode_V2B_CMD,
+    messages.B2V_RQ: _decode_B2V_RQ,
+    messages.V2B_VIN: _decode_V2B_VIN,
+    messages.V2B_RQData: _decode_V2B_RQData,
+    messages.B2V_SysCode1: _decode_B2V_SysCode1,
+    messages.B2V_SysCode2: _decode_B2V_SysCode2,
+    messages.B2V_SysCode3: _decode_B2V_SysCode3,
+    messages.B2V_SysCode4: _decode_B2V_SysCode4,
+    messages.B2V_BattInfo1: _decode_B2V_BattInfo1,
+    messages.B2V_BattInfo2: _decode_B2V_BattInfo2,
+    messages.B2V_Ucell: _decode_B2V_Ucell,
+    messages.B2V_Temp: _decode_B2V_Temp,
+    messages.B2V_ST0: _decode_B2V_ST0,
+    messages.B2V_ST1: _decode_B2V_ST1,
+    messages.B2V_ST2: _decode_B2V_ST2,
+    messages.B2V_ST3: _decode_B2V_ST3,
+    messages.B2V_ST4: _decode_B2V_ST4,
+    messages.B2V_ST5: _decode_B2V_ST5,
+    messages.B2V_ST6: _decode_B2V_ST6,
+    messages.B2V_ElecEnergy: _decode_B2V_ElecEnergy,
+    messages.B2C_Charger: _decode_B2C_Charger,
+    messages.C2B_ACStatus: _decode_C2B_ACStatus,
+    messages.BMS_TMS_0: _decode_BMS_TMS_0,
+    messages.TMS_BMS_0: _decode_TMS_BMS_0,
+    messages.BSU_BMS_0: _decode_BSU_BMS_0,
 }
