@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from decimal import Decimal
 from typing import TypeVar
 
@@ -149,9 +149,28 @@ class _Resolver:
             signals=signals,
             checksum=self._checksum(row, signals),
             counter=self._counter(signals),
+            reserved=tuple(self._reserved(row)),
             reference=", ".join((self._spec.messages.annex, *map(_table_reference, tables))),
             errata=row.marks,
             where=row.where,
+        )
+
+    def _reserved(self, message: MessageRow) -> Iterator[model.ReservedBits]:
+        padding = self._spec.behaviour.padding
+        cited = (self._spec.messages.annex, padding.cite if padding else "")
+        for field in message.signals:
+            if field.name in self._spec.standard.reserved:
+                yield model.ReservedBits(
+                    start=self._given(field, "start", field.start, 0),
+                    length=self._given(field, "length", field.length, 1),
+                    byte_order=self._byte_order(message, field),
+                    value=(padding.reserved or 0) if padding else 0,
+                    reference=", ".join(filter(None, cited)),
+                )
+
+    def _byte_order(self, message: MessageRow, field: FieldRow) -> model.ByteOrder:
+        return model.ByteOrder(
+            field.byte_order or message.byte_order or self._spec.messages.byte_order
         )
 
     def _is_extended(self, row: MessageRow) -> bool:
@@ -191,9 +210,7 @@ class _Resolver:
             english=row.english,
             start=self._given(field, "start", field.start, 0),
             length=length,
-            byte_order=model.ByteOrder(
-                field.byte_order or message.byte_order or self._spec.messages.byte_order
-            ),
+            byte_order=self._byte_order(message, field),
             signed=field.type != "unsigned",
             is_float=is_float,
             factor=factor,

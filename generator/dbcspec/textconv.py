@@ -117,6 +117,9 @@ def _message(message: Message, carries: frozenset[Aspect]) -> list[_Fact]:
     ]
     if Aspect.PERIODS in carries:
         facts += [("send type", _Bare(message.send_type.name)), ("period", message.period)]
+    for bits in message.reserved:
+        place = f"{bits.byte_order.value} {bits.start}|{bits.length}"
+        facts.append(("reserved bits", _Bare(f"{place}, sent as {bits.value}")))
     if check := message.checksum:
         covered = f"of bytes {check.first_byte} to {check.last_byte}"
         facts.append(("checksum", _Bare(f"{check.signal} {check.algorithm} {covered}")))

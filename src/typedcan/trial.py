@@ -24,7 +24,7 @@ from typedcan.shell.printing import print_line
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import Entry, database
 from typedcan.wire.errors import EncodeError, one_line
-from typedcan.wire.fields import Field, PhysicalField, SignalState
+from typedcan.wire.fields import Field, FloatField, PhysicalField, SignalState
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
@@ -79,8 +79,7 @@ class _Trial:
         self._entry = entry
         self._kind = entry.type
         self._theirs = theirs
-        fields = self._kind.FIELDS.values()
-        self._physical = {each.dbc_name for each in fields if isinstance(each, PhysicalField)}
+        self._fields = {each.dbc_name: each for each in self._kind.FIELDS.values()}
 
     def faults(self) -> Iterator[str]:
         """The first thing that is wrong, if any."""
@@ -130,10 +129,22 @@ class _Trial:
             mine = self._codec.encode(message)
         except EncodeError:
             return ""
-        if any(abs(raw[name]) >= _EXACT for name in self._physical & raw.keys()):
-            return ""  # a float has no room for each such number
         theirs = self._theirs.encode(dict(raw), scaling=False, strict=False)
-        return "" if mine == theirs else f"sent as {mine.hex()}, cantools sends {theirs.hex()}"
+        again = self._raw(mine) or {}
+        exact = [name for name in raw if not self._is_rounded(name, raw[name])]
+        if mine == theirs or (len(exact) < len(raw) and all(again[n] == raw[n] for n in exact)):
+            return ""
+        return f"sent as {mine.hex()}, cantools sends {theirs.hex()}"
+
+    def _is_rounded(self, name: str, raw: float) -> bool:
+        """Whether a raw value need not survive the way through its physical value.
+
+        A float has no room for all integers of over 53 bits, nor for what is tiny beside an offset.
+        """
+        field = self._fields[name]
+        if isinstance(field, FloatField):
+            return field.factor != 1 or bool(field.offset)
+        return isinstance(field, PhysicalField) and abs(raw) >= _EXACT
 
     def _default(self) -> str:
         """What is wrong with a message that nothing is given of but what must be given."""

@@ -115,6 +115,9 @@ def told_by_a_spec(protocol: Protocol) -> Protocol:
             dataclasses.replace(
                 message,
                 signals=tuple(dataclasses.replace(each, **plain) for each in message.signals),
+                reserved=tuple(
+                    dataclasses.replace(each, reference="") for each in message.reserved
+                ),
                 **plain,
             )
             for message in protocol.messages

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dbcspec.emit.spec_yaml import Pairs, flow_entries, list_lines, mapping_lines, scalar
 from typedcan.model.acting import usual_start
 from typedcan.model.layout import float_limits
-from typedcan.model.naming import field_name, shared_prefix
+from typedcan.model.naming import field_name, shared_prefix, unused
 from typedcan.model.numbers import number
 from typedcan.model.protocol import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
 
@@ -48,6 +48,8 @@ def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
         yield f"edition: {scalar(protocol.edition)}"
     yield from _participants(protocol)
     yield f"frame_format: {protocol.frame_format}"
+    if any(message.reserved for message in protocol.messages):
+        yield f"reserved: [{_reserved_name(protocol)}]"
     for key, labels in _state_labels(protocol).items():
         if labels:
             yield f"{key}: [{', '.join(map(scalar, labels))}]"
@@ -142,9 +144,18 @@ def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator
         ],
     )
     prefixes = (f"{message.name}_", shared_prefix([signal.name for signal in message.signals]))
-    yield "    signals:" if message.signals else "    signals: []"
+    yield "    signals:" if message.signals or message.reserved else "    signals: []"
     for signal in message.signals:
         yield f"      - {{{flow_entries(_field(signal, order, prefixes))}}}"
+    for bits in message.reserved:
+        own_order = bits.byte_order.value if bits.byte_order is not order else None
+        place: Pairs = [("length", bits.length), ("start", bits.start), ("byte_order", own_order)]
+        yield f"      - {{{flow_entries([('name', _reserved_name(protocol)), *place])}}}"
+
+
+def _reserved_name(protocol: Protocol) -> str:
+    """What fields are called that are no signals."""
+    return unused("Reserved", {signal.name for _, signal in protocol.signals()})
 
 
 def _field(signal: Signal, order: ByteOrder, prefixes: tuple[str, ...]) -> Pairs:
@@ -238,6 +249,8 @@ def _behaviour(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
     }
     for key, rows in sections.items():
         yield from list_lines(key, rows) if rows else [f"{key}: []"]
+    if any(bits.value for message in messages for bits in message.reserved):
+        yield "padding: {reserved: 1}"
 
 
 def _acts(protocol: Protocol, repeated: set[str]) -> Iterator[Pairs]:

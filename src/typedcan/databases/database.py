@@ -268,6 +268,8 @@ def _limits(
         values = 1 << signal.length
         raw = -(values // 2) if signal.is_signed else 0
         low, high = sorted((raw * factor + offset, (raw + values - 1) * factor + offset))
+    if not signal.minimum and not signal.maximum:  # [0|0], however it is written, is none
+        return low, high
     return (
         low if signal.minimum is None else _number(signal.minimum, signal, where),
         high if signal.maximum is None else _number(signal.maximum, signal, where),

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
 
-from typedcan.model.protocol import ByteOrder, Signal
+from typedcan.model.protocol import ByteOrder, ReservedBits, Signal
 
 
-def bits(signal: Signal) -> tuple[int, ...]:
-    """The frame bits of a signal from its least to its most significant one.
+def bits(signal: Signal | ReservedBits) -> tuple[int, ...]:
+    """The frame bits of a signal, or of reserved ones, from its least to its most significant one.
 
     Bit 0 is the least significant bit of byte 0, bit 8 that of byte 1. Bits past the end of the
     frame are listed like any other, so that a caller can see them.

@@ -117,9 +117,8 @@ class Signal:
     @property
     def raw_limits(self) -> tuple[int, int]:
         """The smallest and largest value that the bits can hold."""
-        if self.signed:
-            return -(1 << (self.length - 1)), (1 << (self.length - 1)) - 1
-        return 0, (1 << self.length) - 1
+        low = -(1 << (self.length - 1)) if self.signed else 0
+        return low, low + (1 << self.length) - 1
 
     @property
     def raw_range(self) -> tuple[int, int]:
@@ -149,6 +148,17 @@ class Counter:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReservedBits:
+    """Bits of a message that are printed as reserved, and what each of them is sent as."""
+
+    start: int
+    length: int
+    byte_order: ByteOrder = ByteOrder.INTEL
+    value: int = 0
+    reference: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Message:
     """What one identifier carries. ``period`` is in ms, None where it is sent on events only."""
 
@@ -165,25 +175,22 @@ class Message:
     signals: tuple[Signal, ...] = ()
     checksum: Checksum | None = None
     counter: Counter | None = None
+    reserved: tuple[ReservedBits, ...] = ()
     reference: str = ""
     errata: tuple[str, ...] = ()
     where: Location = field(default=NOWHERE, compare=False)
 
     def comment(self, *, english: bool = True) -> str:
         """What it carries and when it is sent, as comments have it."""
-        if not english:
-            return self.title
-        if not self.condition:
-            return self.english
+        if not english or not self.condition:
+            return self.english if english else self.title
         when = f", every {self.period} ms" if self.period else ""
         return f"{self.english}. Sent {self.condition}{when}."
 
     def signal(self, name: str) -> Signal:
         """The signal of that name; raises `KeyError`."""
-        for signal in self.signals:
-            if signal.name == name:
-                return signal
-        raise KeyError(name)
+        by_name = {signal.name: signal for signal in reversed(self.signals)}
+        return by_name[name]
 
     @property
     def receivers(self) -> tuple[str, ...]:
@@ -281,16 +288,12 @@ class Protocol:
 
     def signals(self) -> Iterator[tuple[Message, Signal]]:
         """Every signal with its message, in order."""
-        for message in self.messages:
-            for signal in message.signals:
-                yield message, signal
+        return ((message, signal) for message in self.messages for signal in message.signals)
 
     def message(self, name: str) -> Message:
         """The message of that name; raises `KeyError`."""
-        for message in self.messages:
-            if message.name == name:
-                return message
-        raise KeyError(name)
+        by_name = {message.name: message for message in reversed(self.messages)}
+        return by_name[name]
 
     @cached_property
     def digest(self) -> str:

@@ -140,7 +140,9 @@ def _sendable(signal: model.Signal, kind: Kind) -> tuple[int, int]:
     if kind is Kind.LABELLED and signal.value_table:
         codes = [code.value for code in signal.value_table.codes]
         low, high = min(low, *codes), max(high, *codes)
-    return max(low, least), min(high, most)
+    low, high = max(low, least), min(high, most)
+    # The linter tells of a range that has none of the values that the bits can hold.
+    return (low, high) if low <= high else (least, most)
 
 
 def _physical_limits(signal: model.Signal, low: int, high: int) -> tuple[float, float]:

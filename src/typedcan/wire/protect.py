@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import reduce
-from operator import xor
-from types import MappingProxyType
+from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
+from typedcan.model.checksums import ALGORITHMS, Algorithm
 from typedcan.wire.message import Message
 
-Algorithm = Callable[[bytes], int]
-"""Bytes to a checksum of one byte."""
+__all__ = ["Algorithm"]
+
+STANDARD_ALGORITHMS = ALGORITHMS
+"""What specs name; others are the user's to add."""
 
 CounterFault = Literal["repeated", "skipped", "invalid"]
 """What an alive counter did: stay as it was, leave values out, or hold none."""
-
-
-def xor8(data: bytes) -> int:
-    """The XOR of all bytes, as tables 1, 14 and 16 have it."""
-    return reduce(xor, data, 0)
-
-
-STANDARD_ALGORITHMS: Mapping[str, Algorithm] = MappingProxyType({"xor": xor8})
-"""What the standard states; others, such as BMS_CRC, are the user's to add."""
 
 
 def expected_checksum(

@@ -7,23 +7,13 @@ from swapcan.conform.chunk import Chunk
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.frames.bits import judge_zeros
 from swapcan.conform.text import Text
-from swapcan.messages import (
-    B2V_RQ,
-    BSU_BMS_0,
-    V2B_CMD,
-    B2C_Charger,
-    B2V_BattInfo1,
-    C2B_ACStatus,
-)
+from typedcan.model.layout import bits
 from typedcan.wire.message import Message
 
 RESERVED: dict[type[Message], tuple[tuple[int, int], ...]] = {
-    V2B_CMD: ((54, 63),),
-    B2V_RQ: ((4, 33), (34, 63)),
-    B2V_BattInfo1: ((54, 63),),
-    B2C_Charger: ((34, 63),),
-    C2B_ACStatus: ((38, 63),),
-    BSU_BMS_0: ((12, 15), (26, 31), (32, 63)),
+    message: tuple((min(bits(each)), max(bits(each))) for each in message.MODEL.reserved)
+    for message in PROTOCOL.messages
+    if message.MODEL.reserved
 }
 """First and last bit of each field that A.1 prints as Reserved, bit 0 the lowest of byte 0."""
 
