@@ -7,8 +7,9 @@ import dataclasses
 import pytest
 from node.rough_bus import ERRORS, MuteError
 
-from swapcan import NodeFailed, ReceiveFailed, SendFailed, StillActingError, SwapcanError
+from swapcan import NodeFailed, ReceiveFailed, SendFailed, StillActingError
 from swapcan.messages import V2B_CMD
+from typedcan.model.errors import TypedcanError
 from typedcan.wire.errors import one_line
 
 

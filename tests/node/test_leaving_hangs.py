@@ -26,10 +26,11 @@ from node.rough_bus import (
 )
 from node.test_time_goes_on import Hang
 
-from swapcan import StillActingError, SwapcanError
+from swapcan import StillActingError
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST2, V2B_CMD, V2B_VIN, HvCommand, V2B_RQData
 from swapcan.node import Node
+from typedcan.model.errors import TypedcanError
 from typedcan.wire.message import Message
 
 ON = V2B_CMD(hv_on_off=HvCommand.HV_ON)

@@ -12,10 +12,11 @@ import pytest
 from can.broadcastmanager import ThreadBasedCyclicSendTask
 from node.bench import Bench, Recorder, at_rest
 
-from swapcan import Received, SwapcanError
+from swapcan import Received
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_RQ, B2V_ST1, B2V_ST2, V2B_CMD
 from swapcan.node import Node
+from typedcan.model.errors import TypedcanError
 from typedcan.supervise import NotSeen, State, StateChanged
 
 
