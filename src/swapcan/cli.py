@@ -6,24 +6,21 @@ import argparse
 import io
 import logging
 import sys
-from collections.abc import Callable, Sequence
-from importlib.metadata import PackageNotFoundError, version
+from collections.abc import Callable, Collection, Sequence
+from importlib import import_module
 
-from swapcan.commands import conform, convert, decode, demo, listen, monitor, plot, send, simulate
-from swapcan.console import CommandError, OutputClosedError, Parser, finish, note, say_text
-from typedcan.wire.errors import one_line
-
-_COMMANDS = (
-    demo.COMMAND,
-    decode.COMMAND,
-    convert.COMMAND,
-    plot.COMMAND,
-    conform.COMMAND,
-    send.COMMAND,
-    listen.COMMAND,
-    monitor.COMMAND,
-    simulate.COMMAND,
+from swapcan.commands import HELP
+from swapcan.console import (
+    Command,
+    CommandError,
+    OutputClosedError,
+    Parser,
+    finish,
+    note,
+    say,
+    say_text,
 )
+from typedcan.wire.errors import one_line
 
 _LOG = logging.getLogger("swapcan")
 
@@ -68,7 +65,7 @@ def run(arguments: Sequence[str]) -> int:
 
 def _dispatch(arguments: Sequence[str]) -> int:
     try:
-        options = _parser().parse_args(arguments)
+        options = _parser(arguments[:1]).parse_args(arguments)
     except SystemExit:  # help or version was printed
         return 0
     command: Callable[[argparse.Namespace], int] = options.run
@@ -82,14 +79,31 @@ def _dispatch(arguments: Sequence[str]) -> int:
         raise  # a driver's idea, not ours: the command has not done its work
 
 
-def _parser() -> Parser:
+class _Version(argparse.Action):
+    """Prints the version, which takes a while to find out."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            found = version("swapcan")
+        except PackageNotFoundError:
+            found = "(not installed)"
+        say(f"swapcan {found}")
+        parser.exit()
+
+
+def _parser(chosen: Collection[str] = tuple(HELP)) -> Parser:
+    """The parser of all commands, complete for those that are chosen: only they are imported."""
     parser = Parser(
         prog="swapcan",
         description="The CAN protocol of battery-swap heavy trucks: watch it, decode it, send it.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--version", action="version", version=f"swapcan {_version()}")
+    parser.add_argument(
+        "--version", action=_Version, nargs=0, help="show program's version number and exit"
+    )
     parser.add_argument(
         "--print-completion",
         choices=("bash", "zsh", "tcsh"),
@@ -97,24 +111,24 @@ def _parser() -> Parser:
     )
     parser.set_defaults(run=lambda options: _no_command(parser, options.print_completion))
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
-    for command in _COMMANDS:
-        part = commands.add_parser(
-            command.name,
-            help=command.help,
-            description=f"{command.help[0].upper()}{command.help[1:]}.",
-            epilog=f"examples:\n{command.examples}",
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )
-        part.set_defaults(run=command.run)
-        command.add_arguments(part)
+    for name, text in HELP.items():
+        if name in chosen:
+            _add(commands, import_module(f"swapcan.commands.{name}").COMMAND)
+        else:
+            commands.add_parser(name, help=text)
     return parser
 
 
-def _version() -> str:
-    try:
-        return version("swapcan")
-    except PackageNotFoundError:
-        return "(not installed)"
+def _add(commands: argparse._SubParsersAction[Parser], command: Command) -> None:
+    part = commands.add_parser(
+        command.name,
+        help=command.help,
+        description=f"{command.help[0].upper()}{command.help[1:]}.",
+        epilog=f"examples:\n{command.examples}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    part.set_defaults(run=command.run)
+    command.add_arguments(part)
 
 
 def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
@@ -126,5 +140,5 @@ def _no_command(parser: argparse.ArgumentParser, shell: str | None) -> int:
         import shtab
     except ModuleNotFoundError:
         raise CommandError("completion needs shtab: pip install 'swapcan[completion]'") from None
-    say_text(shtab.complete(parser, shell))
+    say_text(shtab.complete(_parser(), shell))
     return 0

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options
 from swapcan.commands.log_options import add_window_options, completing_files, need
 from swapcan.console import Command
@@ -177,7 +178,7 @@ def _run(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     name="conform",
-    help="judge whether logs, or nodes on a bus, keep to the standard",
+    help=HELP["conform"],
     examples="""  swapcan conform drive.blf
   swapcan conform day-*.asc --judge BMU --html report.html --junit report.xml
   swapcan conform drive.blf --tolerance period-mean.share=0.2 --skip checksum --strict

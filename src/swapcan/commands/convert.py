@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from swapcan.commands import HELP
 from swapcan.commands.log_options import (
     add_dbc_option,
     add_window_options,
@@ -85,7 +86,7 @@ def _run(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     name="convert",
-    help="write log files as tables: Parquet, Arrow, CSV or MF4",
+    help=HELP["convert"],
     examples="""  swapcan convert drive.blf -o drive.parquet    # drive/B2V_ST2.parquet and others
   swapcan convert drive.blf -o st2.csv --messages B2V_ST2
   swapcan convert day-*.asc -o day.parquet --raster 100ms --signals SOC,Current

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from swapcan.commands import HELP
 from swapcan.commands.log_file import LogFileError, read_log
 from swapcan.commands.transcript import JSON_HELP, Transcript
 from swapcan.console import Command, CommandError, note
@@ -37,7 +38,7 @@ def _run(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     name="decode",
-    help="print the messages in a log file",
+    help=HELP["decode"],
     examples="""  swapcan decode drive.blf
   swapcan decode drive.asc --json | jq -c '.signals.B2V_ST2_SOC // empty'""",
     add_arguments=_add_arguments,

@@ -9,6 +9,7 @@ from contextlib import ExitStack
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.commands import HELP
 from swapcan.commands.traffic import Traffic
 from swapcan.console import Command, note, say, seconds
 from swapcan.messages import B2V_ST1, MESSAGES
@@ -89,7 +90,7 @@ def _tell(simulation: Simulation, traffic: Traffic, faults: int) -> int:
 
 COMMAND = Command(
     name="demo",
-    help="let a pack and a truck talk on a virtual bus and show what was received",
+    help=HELP["demo"],
     examples="""  swapcan demo
   swapcan demo --seconds 10""",
     add_arguments=_add_arguments,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
+from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
 from swapcan.commands.transcript import JSON_HELP, Transcript
 from swapcan.console import Command, OutputClosedError, count, note, seconds
@@ -41,7 +42,7 @@ def _run(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     name="listen",
-    help="print the messages on a bus as they arrive, until Ctrl-C",
+    help=HELP["listen"],
     examples="""  swapcan listen -i socketcan -c can0
   swapcan listen -i pcan -c PCAN_USBBUS1 -b 250000 --json --seconds 10
   swapcan listen -i udp_multicast -c 239.74.163.2 --count 1""",

@@ -15,6 +15,7 @@ from types import FrameType
 
 import can
 
+from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.monitor_lines import MonitorLines
 from swapcan.console import Command, CommandError, count, note, seconds
@@ -172,7 +173,7 @@ def _ending_in_order() -> Iterator[None]:
 
 COMMAND = Command(
     name="monitor",
-    help="watch a bus in the terminal: messages, signals, and the pack at a glance",
+    help=HELP["monitor"],
     examples="""  swapcan monitor -i socketcan -c can0
   swapcan monitor -i pcan -c PCAN_USBBUS1 -b 250000 --record drive.blf
   swapcan monitor -i socketcan -c can0 --plain --seconds 60 > watch.txt

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from swapcan.commands import HELP
 from swapcan.commands.log_options import (
     add_dbc_option,
     add_window_options,
@@ -58,7 +59,7 @@ def _run(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     name="plot",
-    help="draw signals of a log file over time",
+    help=HELP["plot"],
     examples="""  swapcan plot drive.blf --signals SOC,Current -o drive.html
   swapcan plot drive.blf --cells --probes -o cells.html
   swapcan plot drive.blf --signals 'B2V_ST0_ST_*' --from 60 --to 120 -o relays.png

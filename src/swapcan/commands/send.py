@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.transcript import values_text
@@ -60,7 +61,7 @@ def _run(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     name="send",
-    help="send one message; what is not given goes out as invalid, or 0 if that commands nothing",
+    help=HELP["send"],
     examples="""  swapcan send B2V_ST2 soc=80 current=-120.5 -i socketcan -c can0
   swapcan send B2V_ST1 'bms=HV closed' -i pcan -c PCAN_USBBUS1 -b 250000
   swapcan send V2B_CMD V2B_CMD_HV_OnOff=hv_off -i udp_multicast -c 239.74.163.2

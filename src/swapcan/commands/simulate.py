@@ -9,6 +9,7 @@ from contextlib import ExitStack
 from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options, bus_name, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
@@ -131,7 +132,7 @@ def _list_faults() -> None:
 
 COMMAND = Command(
     name="simulate",
-    help="be nodes of the protocol on a bus: a truck, a pack, a charger that behave",
+    help=HELP["simulate"],
     examples="""  swapcan simulate -i virtual -c 0
   swapcan simulate CHG TMS BSU -i socketcan -c can0
   swapcan simulate VCU -i socketcan -c can0 --plan "hv_on@1s, hv_off@60s" --yes-drive-the-bus
