@@ -35,7 +35,9 @@ _MOST_DIGITS = 9
 
 
 _QUOTED_OR_COMMENT = re.compile(r'"(?:[^"\\]++|\\"|\\)*+"|//[^\n]*|"')
-_PLACED = re.compile(r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)\s*\|\s*(\d+))?")
+_PLACED = re.compile(
+    r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)\s*\|\s*(\d+))?"
+)
 _OF_SIGNAL = re.compile(r"\b(?:VAL_|SIG_VALTYPE_)\s+(\d+)\s+(\w+)[^;]*;")
 _DEFINITION = re.compile(r'\bBA_DEF_\s+(?:\w+_\s+)?("[^"]*")\s+(\w+)([^;]*);')
 _VALUE = re.compile(r'\bBA_\s+("[^"]*")[^;]*?("[^"]*")?\s*;')
