@@ -29,6 +29,8 @@ ABNORMAL_LABELS = frozenset({"abnormal"})
 
 _NOBODY = "Vector__XXX"
 _J1939 = "J1939PG"
+_LONGEST_PERIOD = 1 << 32
+"""Milliseconds; what is longer is no number that a clock can count to."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,6 +146,8 @@ class _Builder:
     def _message(self, message: CantoolsMessage, places: Places) -> model.Message:
         english, title = _texts(message.comment)
         period = round(message.cycle_time or 0)
+        if period > _LONGEST_PERIOD:
+            raise ReadError(f"{places.message}: {message.name}: no cycle time is so long")
         prefixes = (f"{message.name}_", shared_prefix([each.name for each in message.signals]))
         # cantools gives signals their long names, but leaves the short one where they select.
         long = dict(zip(places.short_names, (each.name for each in message.signals), strict=False))

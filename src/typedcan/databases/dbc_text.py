@@ -28,9 +28,16 @@ _LONGEST_STATEMENT = 10_000
 _LONGEST_TEXT = 1 << 20
 _MOST_MESSAGES = 50_000
 _MOST_SELECTORS = 1 << 20
+_MOST_BITS = 8 * 1785
+"""Of the longest transfer that J1939 knows; no message has more."""
+
+_MOST_DIGITS = 9
+
 
 _QUOTED_OR_COMMENT = re.compile(r'"(?:[^"\\]++|\\"|\\)*+"|//[^\n]*|"')
-_PLACED = re.compile(r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:")
+_PLACED = re.compile(
+    r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)\s*\|\s*(\d+))?"
+)
 _OF_SIGNAL = re.compile(r"\b(?:VAL_|SIG_VALTYPE_)\s+(\d+)\s+(\w+)[^;]*;")
 _DEFINITION = re.compile(r'\bBA_DEF_\s+(?:\w+_\s+)?("[^"]*")\s+(\w+)([^;]*);')
 _VALUE = re.compile(r'\bBA_\s+("[^"]*")[^;]*?("[^"]*")?\s*;')
@@ -137,6 +144,7 @@ class DbcText:
                 self._refuse_wide_identifier(match)
                 places.append(MessagePlace(int(match[1]), match[2], line))
             elif places:
+                self._refuse_far_bits(match)
                 places[-1].signals.append((match[3], line))
         return places
 
@@ -147,6 +155,13 @@ class DbcText:
         if message[2] != UNASSIGNED and (extended > 1 or identifier >> bits):
             where = self._where(message.start())
             raise ReadError(f"{where}: {message[2]}: {message[1]} is no identifier of {bits} bits")
+
+    def _refuse_far_bits(self, signal: re.Match[str]) -> None:
+        """Numbers as large as such a signal's would fill the memory."""
+        numbers = [signal[4] or "0", signal[5] or "0"]
+        if any(len(each) > _MOST_DIGITS or int(each) > _MOST_BITS for each in numbers):
+            where = self._where(signal.start())
+            raise ReadError(f"{where}: {signal[3]}: no message has so many bits")
 
     def _orphans(self) -> list[tuple[int, int, str]]:
         """Codes and types of signals that are in no message."""

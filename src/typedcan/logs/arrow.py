@@ -125,6 +125,20 @@ def metadata_of(protocol: Protocol, more: Mapping[str, str]) -> Metadata:
     return metadata
 
 
+def plain_batch(batch: pa.RecordBatch) -> pa.RecordBatch:
+    """The same for engines that have neither dictionaries nor unsigned integers."""
+    schema = plain_schema(batch.schema)
+    arrays = [column.cast(part.type) for column, part in zip(batch.columns, schema, strict=True)]
+    return pa.RecordBatch.from_arrays(arrays, schema=schema)
+
+
+def plain_schema(schema: pa.Schema) -> pa.Schema:
+    """The schema of such a batch."""
+    fields = [part.with_type(_plain_type(part.type)) for part in schema]
+    metadata: Any = schema.metadata
+    return pa.schema(fields, metadata)
+
+
 def float_array(values: NDArray[np.float64]) -> pa.Array[Any]:
     """An Arrow array on the memory of the values, which must not change any more."""
     return from_numpy(np.ascontiguousarray(values), pa.float64(), None)
@@ -153,6 +167,17 @@ def buffer_of(values: NDArray[Any]) -> pa.Buffer:
     """The memory of an array."""
     memory: Any = values  # the stubs do not know that arrays are buffers
     return pa.py_buffer(memory)
+
+
+def _plain_type(kind: Any) -> pa.DataType:
+    plain: pa.DataType = kind.value_type if pa.types.is_dictionary(kind) else kind
+    wider: dict[pa.DataType, pa.DataType] = {
+        pa.uint8(): pa.int16(),
+        pa.uint16(): pa.int32(),
+        pa.uint32(): pa.int64(),
+        pa.uint64(): pa.decimal128(20, 0),  # no signed type is wider
+    }
+    return wider.get(plain, plain)
 
 
 def _value_array(

@@ -18,6 +18,8 @@ from typedcan.logs.arrow import (
     channel_array,
     from_numpy,
     message_tables,
+    plain_batch,
+    plain_schema,
 )
 from typedcan.logs.checks import Checks
 from typedcan.logs.columns import MessageColumns
@@ -106,7 +108,7 @@ def decode_batch(
     found = {
         name: _batch(tables[name], columns, frames) for name, columns in decoded.messages.items()
     }
-    return {name: _plain(each) for name, each in found.items()} if plain else found
+    return {name: plain_batch(each) for name, each in found.items()} if plain else found
 
 
 def schemas(
@@ -125,7 +127,7 @@ def schemas(
     protocol = protocol_of(None if dbc is None else Path(dbc), own)
     tables = message_tables(protocol, select(protocol, messages, signals), mode)
     found = {name: table.schema for name, table in tables.items()}
-    return {name: _plain_schema(each) for name, each in found.items()} if plain else found
+    return {name: plain_schema(each) for name, each in found.items()} if plain else found
 
 
 def frame_batches(path: Path | str, rows: int = BLOCK_SIZE) -> Iterator[pa.RecordBatch]:
@@ -260,29 +262,6 @@ def _batch(table: MessageTable, columns: MessageColumns, frames: pa.RecordBatch)
         arrays += table.arrays(columns.columns[info.name])
     schema = table.schema.set(0, table.schema.field(0).with_type(timestamp.type))
     return pa.RecordBatch.from_arrays(arrays, schema=schema)
-
-
-def _plain(batch: pa.RecordBatch) -> pa.RecordBatch:
-    schema = _plain_schema(batch.schema)
-    arrays = [column.cast(part.type) for column, part in zip(batch.columns, schema, strict=True)]
-    return pa.RecordBatch.from_arrays(arrays, schema=schema)
-
-
-def _plain_schema(schema: pa.Schema) -> pa.Schema:
-    fields = [part.with_type(_plain_type(part.type)) for part in schema]
-    metadata: Any = schema.metadata
-    return pa.schema(fields, metadata)
-
-
-def _plain_type(kind: Any) -> pa.DataType:
-    plain: pa.DataType = kind.value_type if pa.types.is_dictionary(kind) else kind
-    wider: dict[pa.DataType, pa.DataType] = {
-        pa.uint8(): pa.int16(),
-        pa.uint16(): pa.int32(),
-        pa.uint32(): pa.int64(),
-        pa.uint64(): pa.decimal128(20, 0),  # no signed type is wider
-    }
-    return wider.get(plain, plain)
 
 
 def _frame_batch(block: FrameBlock) -> pa.RecordBatch:

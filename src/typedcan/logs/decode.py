@@ -60,10 +60,11 @@ class Decoder:
         wanted: Wanted | None = None,
         frame_id_mask: int = 0xFFFFFFFF,
     ) -> None:
+        messages = tuple(messages)
         known = {
             (message.frame_id & frame_id_mask, message.extended): message for message in messages
         }
-        names = {message.name for message in known.values()}
+        names = {message.name for message in messages}
         for name in wanted or ():
             if name not in names:
                 raise SelectionError(f"there is no message {name!r} in the database")

@@ -46,6 +46,13 @@ class Protocol:
     checked: Mapping[str, model.Message]
     readings: tuple[Readings, ...]
 
+    @property
+    def hidden(self) -> dict[str, str]:
+        """Messages that no frame is, since a later one, named here, has their identifier."""
+        last = {(each.frame_id, each.extended): each.name for each in self.messages}
+        pairs = ((each.name, last[each.frame_id, each.extended]) for each in self.messages)
+        return {name: later for name, later in pairs if name != later}
+
 
 def known(protocol: model.Protocol, names: Mapping[str, tuple[str, str]] | None = None) -> Protocol:
     """A protocol of which all is known.

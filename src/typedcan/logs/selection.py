@@ -22,7 +22,7 @@ def select(
         Names of messages; none: all.
     signals
         Names of signals to look for in those messages; none: all. A name is that of the database
-        (``B2V_ST2_SOC``), with its message (``B2V_ST2.B2V_ST2_SOC``), or its end (``SOC``, for
+        (``Pack_SOC``), with its message (``Status.Pack_SOC``), or its end (``SOC``, for
         every signal whose name ends so), in upper or lower case.
 
     Raises

@@ -36,6 +36,8 @@ class Summary:
         From the first to the last frame, of all logs together.
     rows
         By name of the table.
+    hidden
+        Messages that no frame is, each with the one that has the same identifier.
     """
 
     logs: int = 0
@@ -45,6 +47,7 @@ class Summary:
     begin: float | None = None
     seconds: float = 0.0
     rows: Counter[str] = field(default_factory=Counter[str])
+    hidden: dict[str, str] = field(default_factory=dict[str, str])
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -55,6 +58,7 @@ class Summary:
         self.begin = other.begin if self.begin is None else self.begin
         self.seconds += other.seconds
         self.rows.update(other.rows)
+        self.hidden |= other.hidden
 
     def lines(self) -> Iterator[str]:
         """For people."""
@@ -74,6 +78,8 @@ class Summary:
         ):
             if found:
                 yield f"{title}: {_listed(found)}"
+        for name, other in self.hidden.items():
+            yield f"{name} has the identifier of {other}: its frames count as those of {other}"
         for name, gaps in sorted(faults.gaps.items()):
             yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
         for damage in self.damage:
@@ -110,6 +116,7 @@ class Summary:
                 for damage in self.damage
             ],
             "rows": dict(self.rows),
+            "hidden": self.hidden,
         }
 
 

@@ -22,7 +22,7 @@ def find_signals(protocol: Protocol, names: Iterable[str]) -> list[SignalName]:
     Parameters
     ----------
     names
-        Each the name of the database (``B2V_ST2_SOC``), with its message before a dot where it is
+        Each the name of the database (``Pack_SOC``), with its message before a dot where it is
         wanted, or its end where only one signal ends so (``SOC``), in upper or lower case and with
         or without its underscores; or a pattern of these with ``*``, ``?`` and ``[...]``.
 

@@ -1,0 +1,114 @@
+"""Readings by groups of a protocol that is not this standard's, from nothing but its model."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from decimal import Decimal
+from typing import Any
+
+import pyarrow as pa
+import pytest
+from logs.decode_databases import Frame, block_of
+
+from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.decode import Decoder
+from typedcan.logs.protocol import known
+from typedcan.model.protocol import Message, Protocol, Signal, Transfer
+
+
+def signal(name: str, start: int, length: int = 8, **facts: Any) -> Signal:
+    return Signal(
+        name=name,
+        start=start,
+        length=length,
+        minimum=Decimal(0),
+        maximum=Decimal((1 << length) - 1),
+        **facts,
+    )
+
+
+LOADS = Message(
+    name="Loads",
+    frame_id=0x120,
+    extended=False,
+    length=4,
+    sender="Rack",
+    period=100,
+    signals=(
+        signal("Shelf", 0),
+        signal("Part", 8),
+        signal("Left", 16, factor=Decimal("0.5"), unit="kg"),
+        signal("Right", 24, factor=Decimal("0.5"), unit="kg"),
+    ),
+)
+TOTALS = Message(
+    name="Totals",
+    frame_id=0x121,
+    extended=False,
+    length=2,
+    sender="Rack",
+    signals=(signal("Shelves", 0), signal("Loads_", 8)),
+)
+SHELF_LOADS = Transfer(
+    name="shelf_loads",
+    english="Loads of all shelves",
+    messages=("Loads",),
+    items=("Left", "Right"),
+    count_signal="Loads_",
+    frame_number="Part",
+    group="Shelf",
+    groups_signal="Shelves",
+    numbered_within_group=True,
+)
+RACK = Protocol(name="rack", messages=(LOADS, TOTALS), transfers=(SHELF_LOADS,))
+FRAMES = [
+    Frame(0x121, bytes([2, 4])),
+    Frame(0x120, bytes([1, 1, 10, 20])),
+    Frame(0x120, bytes([2, 1, 30, 40])),
+]
+
+
+def rows(names: dict[str, tuple[str, str]]) -> dict[str, list[dict[str, Any]]]:
+    """The rows of all tables, by their names."""
+    protocol = known(RACK, names)
+    block = block_of(FRAMES)
+    block.timestamp[:] = [0.0, 0.01, 0.02]
+    block.channel[:] = 0
+    shape = CellTables(protocol)
+    decoded = Decoder(protocol.messages, reserved=protocol.reserved).decode(block)
+    batches = [*shape.take(decoded), *shape.finish()]
+    return {name: pa.Table.from_batches([batch]).to_pylist() for name, batch in batches}
+
+
+def test_tables_and_columns_are_called_like_the_transfer() -> None:
+    [(name, [row])] = rows({}).items()
+    assert name == "shelf_loads_2x2"
+    loads = {key: value for key, value in row.items() if not key.endswith(".state")}
+    assert loads == {
+        "timestamp": 0.02,
+        "channel": "can0",
+        "shelf_loads_1_1": 5.0,
+        "shelf_loads_1_2": 10.0,
+        "shelf_loads_2_1": 15.0,
+        "shelf_loads_2_2": 20.0,
+    }
+
+
+def test_tables_and_columns_have_the_names_that_are_given() -> None:
+    [(name, [row])] = rows({"shelf_loads": ("loads", "load")}).items()
+    assert name == "loads_2x2"
+    assert row["load_2_1"] == 15.0
+
+
+@pytest.mark.parametrize(
+    "lacking",
+    [
+        {"group": ""},
+        {"groups_signal": ""},
+        {"numbered_within_group": False},
+        {"count_signal": "", "count": 4},
+    ],
+)
+def test_a_transfer_without_groups_or_totals_makes_no_table(lacking: dict[str, Any]) -> None:
+    protocol = replace(RACK, transfers=(replace(SHELF_LOADS, **lacking),))
+    assert known(protocol).readings == ()
