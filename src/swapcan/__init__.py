@@ -2,109 +2,31 @@
 
 from __future__ import annotations
 
+import ast
+import pkgutil
 from importlib import import_module
 from typing import Any
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
-from typedcan.model.errors import TypedcanError
-from typedcan.wire.errors import (
-    ChecksumError,
-    DatabaseError,
-    DecodeError,
-    EncodeError,
-    LengthError,
-    ReceiveTimeoutError,
-    RequestError,
-    RequestTimeoutError,
-    SendingError,
-    StillActingError,
-    TransferError,
-    UnknownFrameError,
-    UnknownMessageError,
-    UnknownNodeError,
-)
-from typedcan.wire.link import Counts, Fault, Received
-from typedcan.wire.message import Message, SignalState
-
-# Live nodes are imported when they are used: a program that decodes a frame starts without them.
-# All names, with their types, stand in __init__.pyi.
+# The names and the modules that have them stand in __init__.pyi alone, for type checkers and here.
+# Each is imported when it is used: a program that decodes a frame starts without live nodes.
 _HOMES = {
-    "BatteryInfo": "swapcan.node",
-    "BusBack": "swapcan.node",
-    "BusLost": "swapcan.node",
-    "Event": "swapcan.node",
-    "Node": "swapcan.node",
-    "NodeFailed": "swapcan.node",
-    "Overrun": "swapcan.node",
-    "Pending": "swapcan.node",
-    "ReceiveFailed": "swapcan.node",
-    "SendFailed": "swapcan.node",
-    "NotSeen": "swapcan.supervise",
-    "SignalChanged": "swapcan.supervise",
-    "State": "swapcan.supervise",
-    "StateChanged": "swapcan.supervise",
-    "CellVoltages": "swapcan.transfer",
-    "PackCode": "swapcan.transfer",
-    "ProbeTemperatures": "swapcan.transfer",
-    "Problem": "swapcan.transfer",
-    "Vin": "swapcan.transfer",
+    name.name: node.module
+    for node in ast.parse(pkgutil.get_data(__name__, "__init__.pyi") or b"").body
+    if isinstance(node, ast.ImportFrom) and node.module
+    for name in node.names
 }
 
-__all__ = [
-    "PROTOCOL",
-    "BatteryInfo",
-    "BusBack",
-    "BusLost",
-    "CellVoltages",
-    "ChecksumError",
-    "Codec",
-    "Counts",
-    "DatabaseError",
-    "DecodeError",
-    "EncodeError",
-    "Event",
-    "Fault",
-    "LengthError",
-    "Link",
-    "Message",
-    "Node",
-    "NodeFailed",
-    "NotSeen",
-    "Overrun",
-    "PackCode",
-    "Pending",
-    "ProbeTemperatures",
-    "Problem",
-    "ReceiveFailed",
-    "ReceiveTimeoutError",
-    "Received",
-    "RequestError",
-    "RequestTimeoutError",
-    "SendFailed",
-    "SendingError",
-    "SignalChanged",
-    "SignalState",
-    "State",
-    "StateChanged",
-    "StillActingError",
-    "TransferError",
-    "TypedcanError",
-    "UnknownFrameError",
-    "UnknownMessageError",
-    "UnknownNodeError",
-    "Vin",
-    "dbc_text",
-    "decode",
-    "encode",
-    "message_type",
-]
+__all__ = [*_HOMES]  # noqa: PLE0604 - texts, all of them
 
 
 def __getattr__(name: str) -> Any:
-    """A name of live nodes, from the module that has it."""
+    """A public name, from the module that has it."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(import_module(_HOMES[name]), name)
     globals()[name] = value
     return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOMES})

@@ -1,84 +1,61 @@
-from swapcan._generated.protocol import PROTOCOL
+# The public names: the only list of them, see __init__.py.
+from swapcan._generated.protocol import PROTOCOL as PROTOCOL
 from swapcan.node import (
-    BatteryInfo,
-    BusBack,
-    BusLost,
-    Event,
-    Node,
-    NodeFailed,
-    Overrun,
-    Pending,
-    ReceiveFailed,
-    SendFailed,
+    BatteryInfo as BatteryInfo,
+    BusBack as BusBack,
+    BusLost as BusLost,
+    Event as Event,
+    Node as Node,
+    NodeFailed as NodeFailed,
+    Overrun as Overrun,
+    Pending as Pending,
+    ReceiveFailed as ReceiveFailed,
+    SendFailed as SendFailed,
 )
-from swapcan.supervise import NotSeen, SignalChanged, State, StateChanged
-from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Problem, Vin
-from swapcan.wire import Codec, Link, dbc_text, decode, encode, message_type
-from typedcan.model.errors import TypedcanError
+from swapcan.supervise import (
+    NotSeen as NotSeen,
+    SignalChanged as SignalChanged,
+    State as State,
+    StateChanged as StateChanged,
+)
+from swapcan.transfer import (
+    CellVoltages as CellVoltages,
+    PackCode as PackCode,
+    ProbeTemperatures as ProbeTemperatures,
+    Problem as Problem,
+    Vin as Vin,
+)
+from swapcan.wire import (
+    Codec as Codec,
+    Link as Link,
+    dbc_text as dbc_text,
+    decode as decode,
+    encode as encode,
+    message_type as message_type,
+)
+from typedcan.model.errors import TypedcanError as TypedcanError
 from typedcan.wire.errors import (
-    ChecksumError,
-    DatabaseError,
-    DecodeError,
-    EncodeError,
-    LengthError,
-    ReceiveTimeoutError,
-    RequestError,
-    RequestTimeoutError,
-    SendingError,
-    StillActingError,
-    TransferError,
-    UnknownFrameError,
-    UnknownMessageError,
-    UnknownNodeError,
+    ChecksumError as ChecksumError,
+    DatabaseError as DatabaseError,
+    DecodeError as DecodeError,
+    EncodeError as EncodeError,
+    LengthError as LengthError,
+    ReceiveTimeoutError as ReceiveTimeoutError,
+    RequestError as RequestError,
+    RequestTimeoutError as RequestTimeoutError,
+    SendingError as SendingError,
+    StillActingError as StillActingError,
+    TransferError as TransferError,
+    UnknownFrameError as UnknownFrameError,
+    UnknownMessageError as UnknownMessageError,
+    UnknownNodeError as UnknownNodeError,
 )
-from typedcan.wire.link import Counts, Fault, Received
-from typedcan.wire.message import Message, SignalState
-
-__all__ = [
-    "PROTOCOL",
-    "BatteryInfo",
-    "BusBack",
-    "BusLost",
-    "CellVoltages",
-    "ChecksumError",
-    "Codec",
-    "Counts",
-    "DatabaseError",
-    "DecodeError",
-    "EncodeError",
-    "Event",
-    "Fault",
-    "LengthError",
-    "Link",
-    "Message",
-    "Node",
-    "NodeFailed",
-    "NotSeen",
-    "Overrun",
-    "PackCode",
-    "Pending",
-    "ProbeTemperatures",
-    "Problem",
-    "ReceiveFailed",
-    "ReceiveTimeoutError",
-    "Received",
-    "RequestError",
-    "RequestTimeoutError",
-    "SendFailed",
-    "SendingError",
-    "SignalChanged",
-    "SignalState",
-    "State",
-    "StateChanged",
-    "StillActingError",
-    "TransferError",
-    "TypedcanError",
-    "UnknownFrameError",
-    "UnknownMessageError",
-    "UnknownNodeError",
-    "Vin",
-    "dbc_text",
-    "decode",
-    "encode",
-    "message_type",
-]
+from typedcan.wire.link import (
+    Counts as Counts,
+    Fault as Fault,
+    Received as Received,
+)
+from typedcan.wire.message import (
+    Message as Message,
+    SignalState as SignalState,
+)
