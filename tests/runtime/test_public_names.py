@@ -27,6 +27,15 @@ def test_the_stub_has_the_public_names_each_from_where_it_is_defined() -> None:
         assert getattr(swapcan, name) is getattr(sys.modules[home], name)
 
 
+def test_the_package_lists_its_names_before_they_are_used() -> None:
+    program = "import swapcan; print({*swapcan.__all__} <= {*dir(swapcan)}, len(swapcan.__all__))"
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["True", str(len(swapcan.__all__))]
+    assert {"PROTOCOL", "Link", "Node", "EncodeError", "decode"} <= {*dir(swapcan)}
+
+
 def test_there_is_no_other_name() -> None:
     with pytest.raises(AttributeError, match="no attribute 'Nodes'"):
         getattr(swapcan, "Nodes")  # noqa: B009  (the stub knows no such name)

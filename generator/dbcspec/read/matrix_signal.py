@@ -82,6 +82,9 @@ class SignalDraft:
             for key in ("raw_minimum", "raw_maximum", "initial", "invalid", "abnormal")
         }
         given = _Given(length, factor, offset, signed, is_float)
+        least, most = raw["raw_minimum"], raw["raw_maximum"]
+        if factor < 0:
+            least, most = most, least
         multiplexing = row.read("multiplexing", _multiplexing, _NOT_MULTIPLEXED)
         byte_order, start = self._place(length)
         acting = acting_of(row, length=length, signed=signed)
@@ -97,8 +100,8 @@ class SignalDraft:
             is_float=is_float,
             factor=factor,
             offset=offset,
-            minimum=given.limit(row, "minimum", raw["raw_minimum"], 0),
-            maximum=given.limit(row, "maximum", raw["raw_maximum"], 1),
+            minimum=given.limit(row, "minimum", least, 0),
+            maximum=given.limit(row, "maximum", most, 1),
             unit=row.text("unit"),
             value_table=tables.of(
                 name, row.name("value_table"), self._codes(length, signed=signed)

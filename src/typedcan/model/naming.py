@@ -85,7 +85,7 @@ def field_names(wanted: Iterable[str], also: Collection[str] = ()) -> list[str]:
         # Two underscores in front are spelt otherwise within a class.
         plain = f"_{plain.lstrip('_')}" if plain.startswith("__") or plain[:1].isdigit() else plain
         plain = f"{plain}_" if plain in words else plain
-        names.append(unused(plain or "_", taken))
+        names.append(unused(plain if plain.strip("_") else "field", taken))
         taken.add(names[-1])
     return names
 
