@@ -1,7 +1,7 @@
 """Commands as processes of their own, forked from one that has loaded all that they need.
 
 Run as a program it reads their arguments from its standard input, as JSON, and tells their numbers
-and, in the end, how each ended.
+and, in the end, how each ended. Their look-out is short.
 """
 
 from __future__ import annotations
@@ -75,7 +75,9 @@ def parent() -> Iterator[Parent]:
 
 def _main() -> None:
     import swapcan.commands.conformance  # noqa: F401 - is loaded once for all
+    from swapcan.drive import driving
 
+    driving.LOOK_OUT = 0.3
     pids = [_fork(*given) for given in json.loads(sys.stdin.readline())]
     print(json.dumps(pids), flush=True)
     print(json.dumps([_status_of(pid) for pid in pids]), flush=True)

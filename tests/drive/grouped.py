@@ -1,4 +1,4 @@
-"""`swapcan` in a process group of its own, or with a terminal of its own."""
+"""`swapcan` in a process group of its own, or with a terminal of its own; its look-out is short."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import os
 import sys
 
 from swapcan.__main__ import main
+from swapcan.drive import driving
 
 if __name__ == "__main__":
+    driving.LOOK_OUT = 0.3
     if sys.argv[1] == "--terminal":
         import fcntl
         import termios

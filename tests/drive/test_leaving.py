@@ -125,11 +125,6 @@ def test_frames_that_are_held_back_do_not_act_after_the_safe_codes() -> None:
         assert {command_in(frame) for frame in on_wire(driven.rig)} == {HvCommand.HV_OFF}
 
 
-def fail(*_: object) -> None:
-    """What a part of the simulation may do."""
-    raise ZeroDivisionError
-
-
 @pytest.mark.parametrize("name", ["step", "withdraw", "_command"])
 def test_a_simulated_truck_that_fails_itself_is_left_with_the_pack_open(
     name: str, monkeypatch: pytest.MonkeyPatch
@@ -138,10 +133,12 @@ def test_a_simulated_truck_that_fails_itself_is_left_with_the_pack_open(
         progress = Progress(rig)
         stage = rig.stage(is_over=lambda: progress.look() is Phase.CLOSED and name != "_command")
         method: Callable[..., Any] = getattr(Vcu, name)
+        failed = []
 
         def failing(self: Vcu, *given: Any) -> Any:
-            if progress.look() is Phase.CLOSED:
-                fail()
+            if failed or progress.look() is Phase.CLOSED or name == "withdraw":
+                failed.append(name)
+                raise ZeroDivisionError
             return method(self, *given)
 
         monkeypatch.setattr(Vcu, name, failing)
@@ -150,10 +147,28 @@ def test_a_simulated_truck_that_fails_itself_is_left_with_the_pack_open(
                 stage.play(SCENARIO, ["VCU"], lambda _: None)
         else:
             stage.play(SCENARIO, ["VCU"], lambda _: None)
+        assert failed
         assert stage.left is Left.SAFE
         progress.look()
-        assert set(progress.commands[-7:]) == {HvCommand.HV_OFF}
+        assert set(progress.commands[-5:]) == {HvCommand.HV_OFF}
         assert rig.pack.pack.relays.closed == frozenset()
+
+
+def test_leaving_that_is_broken_into_again_and_again_ends_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with truck() as driven:
+        driven.driving.live(driven.simulation.world, 0.5)
+        tried = []
+
+        def break_in(*_: object) -> Left:
+            tried.append(driven.rig.clock.now())
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr(Driving, "_leave", break_in)
+        assert driven.driving.leave(driven.simulation) is Left.UNKNOWN
+        assert 10 < len(tried) < 1000
+        assert isinstance(driven.driving.interrupted, KeyboardInterrupt)
 
 
 @pytest.mark.parametrize("line", [9, 17, 33, 60, 130, 400, 1100, 3000])

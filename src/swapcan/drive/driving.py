@@ -157,9 +157,9 @@ class Driving:
         # What is still planned is for the other world.
         world = World(*others, clock=self._clock, wires=self._wires)
         while (passed := self._clock.now() - begin) < LEAVING - _MOMENT:
-            lives = self._let_pass(world)
+            self._let_pass(world)
             self._watchdog.beat()
-            if self._acts or (passed < _LEAVING_AT_LEAST and not lives):
+            if self._acts or (passed < _LEAVING_AT_LEAST and self._is_quiet):
                 self._send_safe_codes(simulation, ())
             elif simulation.bmu and passed < _LEAVING_AT_LEAST:
                 self._send_those_of(simulation.bmu)
@@ -170,6 +170,12 @@ class Driving:
     @property
     def _acts(self) -> bool:
         return any(bus.acting for bus in self._buses)
+
+    @property
+    def _is_quiet(self) -> bool:
+        """Whether nobody commands anything, be it that something is wrong with the nodes."""
+        last = max(bus.commanded_at for bus in self._buses)
+        return self._clock.now() - last > 1.5 * _SLICE
 
     def _are_off(self, simulation: Simulation) -> bool:
         """Whether those who were commanded say that they are off, and nothing acts any more."""
@@ -216,24 +222,20 @@ class Driving:
         for node in participant.nodes:
             self._try(node.send_safe_codes)
 
-    def _let_pass(self, world: World) -> bool:
-        """Let a slice of time pass; False where something is wrong with those who live in it."""
+    def _let_pass(self, world: World) -> None:
+        """Let a slice of time pass, whatever is wrong with those who live in it."""
         begin = self._clock.now()
-        lives = self._try(lambda: world.run(_SLICE))
+        self._try(lambda: world.run(_SLICE))
         for other in (self._hearing(), World(clock=self._clock, wires=self._wires)):
             left = begin + _SLICE - self._clock.now()
             if left > _MOMENT:
                 self._try(partial(other.run, left))
-        return lives
 
-    def _try(self, action: Callable[[], object]) -> bool:
-        """Do something, whatever comes of it; False where it raises."""
+    def _try(self, action: Callable[[], object]) -> None:
         try:
             action()
         except BaseException as error:  # noqa: BLE001 - what is left to do does not depend on it
             self._note(error)
-            return False
-        return True
 
     def _note(self, error: BaseException | None) -> None:
         """Keep what is raised once all is off: what is no Exception was meant to end more."""

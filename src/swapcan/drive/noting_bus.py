@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection
 from copy import copy
 
@@ -77,6 +78,8 @@ class NotingBus(can.BusABC):
         """Whether a code that acts was ever sent."""
         self.has_ended = False
         """Whether what acts was ended: then no code that acts is sent any more."""
+        self.commanded_at = -math.inf
+        """When the bus took the last message that can act, by the clock."""
         self.intruder: can.Message | None = None
         self.channel_info = bus.channel_info
         super().__init__(channel=bus.channel_info)
@@ -114,6 +117,7 @@ class NotingBus(can.BusABC):
             self.latest.clear()
         try:
             sent = self._sent(msg, timeout)
+            self.commanded_at = self._clock.now()
             if obeyed:
                 self._commands.end(command)
         finally:
@@ -135,6 +139,7 @@ class NotingBus(can.BusABC):
             except BaseException as error:  # noqa: BLE001 - drivers raise what they like
                 failure = failure or error
             else:
+                self.commanded_at = self._clock.now()
                 self._commands.made_safe(message)
                 self._record.lay_aside(*sent)
         return failure
