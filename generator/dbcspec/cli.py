@@ -23,7 +23,7 @@ _EXAMPLES = """examples:
   dbcspec compare HEAD~3:spec spec --fail-on wire --format markdown
   dbcspec matrix export                  the Excel CAN matrix
   dbcspec load --groups 18               bus load and worst-case response times
-  dbcspec show B2V_ST2                   one message: bits, signals, codes, errata
+  dbcspec show ECU1_Status               one message: bits, signals, codes, errata
 
 exit status: 0 all is well, 1 findings or stale files, 2 the command could not do its work"""
 

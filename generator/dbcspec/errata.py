@@ -1,7 +1,7 @@
 """Rows as printed to rows as read: applies each erratum, and refuses one that does nothing.
 
-Paths: ``tables/07-temperature-summary/4`` (a row by its number), ``messages/B2V_ST4/B2V_ST4_…``
-(a field of the annex), ``standard/nodes/BMU``, ``behaviour/checksums/BMS_CRC``, ``tables``.
+Paths: ``tables/07-status/4`` (a row by its number), ``messages/ECU1_Status/Speed``
+(a field of the annex), ``standard/nodes/ECU1``, ``behaviour/checksums/CRC8``, ``tables``.
 """
 
 from __future__ import annotations

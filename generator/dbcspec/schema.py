@@ -172,7 +172,7 @@ def _split_route(text: str) -> tuple[str, tuple[str, ...]]:
 
 
 ROUTE = _pattern(
-    "a route such as BMU>VCU, with - for nobody",
+    "a route such as ECU1>ECU2, with - for nobody",
     r"(?:[A-Za-z0-9_]+|-)>(?:[A-Za-z0-9_]+(?:,[A-Za-z0-9_]+)*|-)",
     _split_route,
 )

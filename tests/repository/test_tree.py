@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 from pathlib import Path
 
@@ -88,3 +89,28 @@ def test_generator_is_a_source_root_and_no_package() -> None:
 def test_no_file_is_a_symbolic_link() -> None:
     kept = ("src", "generator", "spec", "dbc", "tests")
     assert [str(p) for folder in kept for p in (ROOT / folder).rglob("*") if p.is_symlink()] == []
+
+
+# What serves any CAN protocol: no message, signal or node of this standard is named there.
+GENERIC = [
+    path
+    for path in SOURCES
+    if path.is_relative_to(ROOT / "src/typedcan") or path.is_relative_to(ROOT / "generator")
+]
+
+
+def test_what_serves_any_protocol_names_no_message_of_this_one() -> None:
+    document = json.loads((ROOT / "src/swapcan/_generated/protocol.json").read_text("utf-8"))
+    names = {node["name"] for node in document["nodes"]} | {
+        named["name"]
+        for message in document["messages"]
+        for named in (message, *message["signals"])
+    }
+    assert len(names) > 200
+    assert len(GENERIC) > 100
+    word = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, names))})(?!\w)")
+    assert [
+        f"{path.relative_to(ROOT)}: {found}"
+        for path in GENERIC
+        for found in word.findall(path.read_text("utf-8"))
+    ] == []

@@ -12,6 +12,7 @@ import pytest
 import swapcan
 
 STUB = ast.parse(Path(swapcan.__file__).with_suffix(".pyi").read_text("utf-8"))
+NAMES = vars(swapcan)["__all__"]
 
 
 def test_the_stub_has_the_public_names_each_from_where_it_is_defined() -> None:
@@ -21,7 +22,7 @@ def test_the_stub_has_the_public_names_each_from_where_it_is_defined() -> None:
         if isinstance(node, ast.ImportFrom) and node.module
         for alias in node.names
     }
-    assert sorted(homes) == sorted(swapcan.__all__)
+    assert sorted(homes) == sorted(NAMES)
     for name, home in homes.items():
         __import__(home)
         assert getattr(swapcan, name) is getattr(sys.modules[home], name)
@@ -32,7 +33,7 @@ def test_the_package_lists_its_names_before_they_are_used() -> None:
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert done.stdout.split() == ["True", str(len(swapcan.__all__))]
+    assert done.stdout.split() == ["True", str(len(NAMES))]
     assert {"PROTOCOL", "Link", "Node", "EncodeError", "decode"} <= {*dir(swapcan)}
 
 

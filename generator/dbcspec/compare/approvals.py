@@ -7,7 +7,7 @@
     reason = "The supplier measured the range again."
     date = 2031-04-30
     rule = "signal-scale-same"        # for the reader; checked where given
-    subject = "B2V_ST2_SOC"           # the same
+    subject = "ECU1_Status_Speed"     # the same
 """
 
 from __future__ import annotations

@@ -292,8 +292,7 @@ class Protocol:
 
     def message(self, name: str) -> Message:
         """The message of that name; raises `KeyError`."""
-        by_name = {message.name: message for message in reversed(self.messages)}
-        return by_name[name]
+        return {message.name: message for message in reversed(self.messages)}[name]
 
     @cached_property
     def digest(self) -> str:

@@ -24,7 +24,7 @@ class Codec:
     ----------
     algorithms
         Checksum algorithms by name, for those that the standard leaves open: a function from the
-        covered bytes to one byte, for example ``{"BMS_CRC": my_crc}``. Without one that checksum
+        covered bytes to one byte, for example ``{"Status_CRC": my_crc}``. Without one that checksum
         is sent as 0 and not verified.
     protocol
         Another protocol whose package `dbcspec generate` wrote.
