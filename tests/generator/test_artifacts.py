@@ -57,10 +57,12 @@ def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path:
         f"{folder}/{name}"
         for name in (
             "__init__.py",
+            "model.py",
             "enums.py",
             "messages.py",
             "decoders.py",
             "protocol.py",
+            "protocol.json",
             "thermo.dbc",
         )
     }

@@ -63,8 +63,6 @@ def test_a_waiver_knows_its_line(tmp_path: Path) -> None:
         ("[tool.dbcspec]\nname = 'x'\ndbc = ''", "dbc is empty"),
         ("[tool.dbcspec]\nname = 'x'\nspec = ''", "spec is empty"),
         ("[tool.dbcspec]\nname = 'x'\nspce = 'y'", "has an unknown key 'spce'"),
-        ("[tool.dbcspec]\nname = 'x'\nstubs = 'y'", "stubs and runtime go together"),
-        ("[tool.dbcspec]\nname = 'x'\nruntime = 'y'", "stubs and runtime go together"),
         ("[tool.dbcspec]\nname = 'x'\nwaivers = 3", "waivers must be tables"),
         ("[tool.dbcspec]\nname = 'x'\nwaivers = ['y']", "waiver 1 needs rule, subject and reason"),
         (
