@@ -57,12 +57,14 @@ def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path:
         f"{folder}/{name}"
         for name in (
             "__init__.py",
+            "model.py",
             "enums.py",
             "messages.py",
             "decoders.py",
             "model.py",
             "protocol.json",
             "protocol.py",
+            "protocol.json",
             "thermo.dbc",
         )
     }

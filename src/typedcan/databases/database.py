@@ -207,7 +207,8 @@ class _Builder:
             receivers=tuple(name for name in signal.receivers if name != _NOBODY),
             is_selector=signal.is_multiplexer,
             multiplexer=long.get(selector, selector) if signal.multiplexer_ids else "",
-            selectors=tuple(sorted(signal.multiplexer_ids or ())),
+            # Some files have branches and nothing that selects them.
+            selectors=tuple(sorted(signal.multiplexer_ids or ())) if selector else (),
             python_name=python_name,
             reference=str(_attribute(signal, "SpecReference") or ""),
             errata=tuple(str(_attribute(signal, "SpecErrata") or "").split()),
@@ -275,6 +276,11 @@ def _limits(
     if not signal.minimum and not signal.maximum:  # [0|0], however it is written, is none
         return low, high
     return (
-        low if signal.minimum is None else _number(signal.minimum, signal, where),
-        high if signal.maximum is None else _number(signal.maximum, signal, where),
+        low if _is_open(signal.minimum) else _number(signal.minimum or 0, signal, where),
+        high if _is_open(signal.maximum) else _number(signal.maximum or 0, signal, where),
     )
+
+
+def _is_open(limit: float | None) -> bool:
+    """Whether a limit is not given, or too large for cantools, as of signals of 1600 bits."""
+    return limit is None or math.isinf(limit)
