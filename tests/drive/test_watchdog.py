@@ -68,26 +68,34 @@ def test_off_is_sent_again_and_again_where_no_beat_comes_and_on_no_more(
         assert set(commands(far)) <= {HvCommand.HV_OFF}
 
 
+@pytest.fixture
+def now(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The time of watchdogs, set by hand."""
+    time_of_day = [100.0]
+    monkeypatch.setattr(watchdog, "_now", lambda: time_of_day[0])
+    return time_of_day
+
+
 def test_who_gives_signs_of_life_is_left_alone(
-    near: can.BusABC, far: can.BusABC, monkeypatch: pytest.MonkeyPatch
+    near: can.BusABC, far: can.BusABC, now: list[float]
 ) -> None:
-    monkeypatch.setattr(watchdog, "_PATIENCE", 0.5)
     with NotingBus(near, lambda _: None) as bus, Watchdog([bus], SystemClock()) as dog:
         bus.send(command(HvCommand.HV_ON, 0))
-        for _ in range(20):
-            time.sleep(0.05)
-            dog.beat()
+        for _ in range(10):
+            now[0] += 1.9
+            time.sleep(0.06)  # it looks every 50 ms
             dog.check()
+            dog.beat()
         assert list(commands(far)) == [HvCommand.HV_ON]
 
 
 def test_where_nothing_acts_it_does_nothing(
-    near: can.BusABC, far: can.BusABC, monkeypatch: pytest.MonkeyPatch
+    near: can.BusABC, far: can.BusABC, now: list[float]
 ) -> None:
-    monkeypatch.setattr(watchdog, "_PATIENCE", 0.1)
     with NotingBus(near, lambda _: None) as bus, Watchdog([bus], SystemClock()) as dog:
         bus.send(command(HvCommand.HV_OFF, 0))
-        time.sleep(0.4)
+        now[0] += 60.0
+        time.sleep(0.1)
         assert dog.is_late
         dog.check()
         dog.beat()
@@ -96,10 +104,8 @@ def test_where_nothing_acts_it_does_nothing(
 
 
 def test_a_machine_that_was_asleep_commands_nothing_that_acts_after_that(
-    near: can.BusABC, far: can.BusABC, monkeypatch: pytest.MonkeyPatch
+    near: can.BusABC, far: can.BusABC, now: list[float]
 ) -> None:
-    now = [100.0]
-    monkeypatch.setattr(watchdog, "_now", lambda: now[0])
     with NotingBus(near, lambda _: None) as bus, Watchdog([bus], SystemClock()):
         bus.send(command(HvCommand.HV_ON, 0))
         now[0] += 1.9
@@ -184,7 +190,7 @@ def test_conform_in_a_recorder_or_a_driver_that_hangs_switches_off_and_ends(
     record = tmp_path / "bench.log"
     status = cli.run(["conform", "-i", "virtual", "-c", channel, *options, "--record", str(record)])
     assert status == 2
-    assert 0.3 < hang.hung < 3.5  # the patience, and what a pack takes to open
+    assert 0.3 < hang.hung < 10.0  # the patience, and what a pack takes to open
     errors = capfd.readouterr().err.splitlines()
     assert "swapcan: hv-on-off: the pack has reported that it is off" in errors
     assert any("the program stands still: what acts was ended" in line for line in errors)
@@ -192,7 +198,7 @@ def test_conform_in_a_recorder_or_a_driver_that_hangs_switches_off_and_ends(
     sent = list(commands(far))
     ons = [number for number, each in enumerate(sent) if each == HvCommand.HV_ON]
     offs = sent[ons[-1] + 1 :]
-    assert len(offs) >= 7
+    assert len(offs) >= 3
     assert set(offs) == {HvCommand.HV_OFF}
     with can.LogReader(record) as reader:
         frames = [each for each in reader if each.arbitration_id == V2B_CMD.FRAME_ID]
