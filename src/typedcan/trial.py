@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import cantools.database
+from cantools.database.can import Database
 from cantools.database.can import Message as CantoolsMessage
 
 from typedcan.shell.printing import print_line
@@ -55,6 +56,8 @@ def tried(package: str, file: Path) -> Iterator[str]:
         yield f"{package}: cannot be imported: {one_line(error)}"
         return
     theirs = cantools.database.load_file(file, encoding="utf-8", strict=False)
+    if not isinstance(theirs, Database):
+        raise TypeError(f"{file}: is no CAN database")
     by_id = {(each.is_extended_frame, each.frame_id): each for each in theirs.messages}
     for kind, entry in entries.items():
         message = by_id.get((kind.EXTENDED, kind.FRAME_ID))
