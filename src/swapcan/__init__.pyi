@@ -59,3 +59,5 @@ from typedcan.wire.message import (
     Message as Message,
     SignalState as SignalState,
 )
+
+__all__: list[str]

@@ -57,8 +57,7 @@ def tried(package: str, file: Path) -> Iterator[str]:
         return
     theirs = cantools.database.load_file(file, encoding="utf-8", strict=False)
     if not isinstance(theirs, Database):
-        yield f"{file}: is no CAN database to cantools"
-        return
+        raise TypeError(f"{file}: is no CAN database")
     by_id = {(each.is_extended_frame, each.frame_id): each for each in theirs.messages}
     for kind, entry in entries.items():
         message = by_id.get((kind.EXTENDED, kind.FRAME_ID))

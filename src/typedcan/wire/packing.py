@@ -37,7 +37,7 @@ class Packer:
     """
 
     def __init__(self, signals: Sequence[Signal], length: int) -> None:
-        own, *others = _apart(signals) or [list(signals)]
+        own, *others = _apart(signals) or [[]]
         bits: Any = [_bits(signal) for signal in own]
         formats = create_encode_decode_formats(bits, length)
         names = [signal.name for signal in signals]
