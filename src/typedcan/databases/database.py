@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import PurePath
@@ -151,6 +151,9 @@ class _Builder:
         prefixes = (f"{message.name}_", shared_prefix([each.name for each in message.signals]))
         # cantools gives signals their long names, but leaves the short one where they select.
         long = dict(zip(places.short_names, (each.name for each in message.signals), strict=False))
+        # Some files do not mark what selects.
+        selecting = {each.multiplexer_signal for each in message.signals if each.multiplexer_ids}
+        selecting = {long.get(name, name) for name in selecting if name}
         fields = field_names(field_name(signal.name, prefixes) for signal in message.signals)
         return model.Message(
             name=message.name,
@@ -163,7 +166,7 @@ class _Builder:
             period=period if period > 0 else None,
             send_type=_send_type(message, period),
             signals=tuple(
-                self._signal(signal, python_name, place, long)
+                self._signal(signal, python_name, place, long, selecting)
                 for signal, python_name, place in zip(
                     message.signals, fields, places.signals, strict=True
                 )
@@ -174,7 +177,12 @@ class _Builder:
         )
 
     def _signal(
-        self, signal: CantoolsSignal, python_name: str, where: Location, long: Mapping[str, str]
+        self,
+        signal: CantoolsSignal,
+        python_name: str,
+        where: Location,
+        long: Mapping[str, str],
+        selecting: Set[str | None],
     ) -> model.Signal:
         english, title = _texts(signal.comment)
         codes = codes_of(signal.choices or {})
@@ -205,9 +213,8 @@ class _Builder:
             abnormal_code=code_labelled(codes, self._labels.abnormal),
             start_value=self._start_value(signal),
             receivers=tuple(name for name in signal.receivers if name != _NOBODY),
-            is_selector=signal.is_multiplexer,
+            is_selector=signal.is_multiplexer or signal.name in selecting,
             multiplexer=long.get(selector, selector) if signal.multiplexer_ids else "",
-            # Some files have branches and nothing that selects them.
             selectors=tuple(sorted(signal.multiplexer_ids or ())) if selector else (),
             python_name=python_name,
             reference=str(_attribute(signal, "SpecReference") or ""),
