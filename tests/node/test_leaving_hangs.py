@@ -15,6 +15,7 @@ import pytest
 from node.bench import Recorder
 from node.rough_bus import (
     RoughBus,
+    commands,
     frames_until,
     is_off,
     is_on,
@@ -195,7 +196,7 @@ def test_a_maker_that_stops_its_node_ends_what_acts(
     with node:
         node.clear(V2B_VIN)
         assert is_on(frames_until(far, is_on)[-1])
-    assert is_off(rest(far)[-1])
+    assert is_off(commands(rest(far))[-1])
 
 
 @pytest.mark.skipif(
@@ -264,6 +265,7 @@ def test_a_copy_of_the_process_does_not_speak_for_its_parent(
     taken: Recorder = Recorder()
     with Node(PROTOCOL, "VCU", near) as node:
         node.set(ON)
+        node.request_pack_code(timeout=1000.0)
         frames_until(far, is_on)
         pid = os.fork()
         if pid == 0:
@@ -277,4 +279,4 @@ def test_a_copy_of_the_process_does_not_speak_for_its_parent(
                 os._exit(code)
         assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 0
         assert is_on(frames_until(far, is_on)[-1])
-    assert is_off(rest(far)[-1])
+    assert is_off(commands(rest(far))[-1])

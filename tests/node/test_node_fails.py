@@ -135,6 +135,7 @@ def test_send_ends_it_where_it_fails_for_good_and_what_is_live_is_said(
     with pytest.raises(StillActingError) as raised:
         vcu.stop()
     assert raised.value.messages == ("V2B_CMD",)
+    assert (str(error()) or type(error()).__name__) in raised.value.cause
     assert threads_of("VCU") == []
 
 
