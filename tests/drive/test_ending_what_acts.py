@@ -31,10 +31,12 @@ class Wire(can.BusABC):
 
     def __init__(self) -> None:
         self.frames: list[can.Message] = []
+        self.timeouts: list[float | None] = []
         self.before: Callable[[can.Message], object] = lambda _: None
         super().__init__(channel="wire")
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
+        self.timeouts.append(timeout)
         self.before(msg)
         self.frames.append(msg)
 
@@ -83,6 +85,7 @@ def test_the_safe_codes_take_the_place_of_those_that_act_and_the_rest_stays(both
     assert (named["HV_OnOff"], named["HV_ACC_OnOff"], named["Heat_OnOff"]) == (2, 2, 2)
     assert named["VehicleSpeed"] == 42.0
     bus.send_safe_codes()
+    assert wire.timeouts[1:] == [0, 0]  # a full queue is not waited for
     assert [values(each)["V2B_CMD_ALIV"] for each in wire.frames] == [13, 14, 0]
     xor = 0
     for byte in wire.frames[-1].data[1:]:
@@ -167,6 +170,14 @@ def test_what_its_receiver_passes_over_has_ended_nothing(both: Both) -> None:
     bus.send(frame(OFF, 6))  # the counter stands still
     assert bus.acting
     bus.send(frame(OFF, 7))
+    assert bus.acting == ()
+
+
+def test_a_message_without_a_counter_ends_what_it_began(both: Both) -> None:
+    _, bus = both
+    bus.send(frame(CHARGE))
+    assert bus.acting
+    bus.send(frame(B2C_Charger(charge_control=ChargeControl.FAULT_STOP_TO_CHARGE)))
     assert bus.acting == ()
 
 
@@ -272,10 +283,12 @@ def test_trouble_lasts_until_the_same_direction_works_again() -> None:
             bus.send(frame(OFF, int(second)))
         assert bus.trouble
         assert (bus.trouble[0], type(bus.trouble[1])) == (1.0, IndexError)
-        troubled.update(send=True, recv=False)
+        troubled["send"] = True
         clock.advance_to(3.0)
         with pytest.raises(OSError, match="no"):
             bus.send(frame(OFF, 3))
+        assert bus.trouble[0] == 1.0  # the one that has lasted longer
+        troubled["recv"] = False
         assert bus.recv(0) is None
         assert (bus.trouble[0], type(bus.trouble[1])) == (3.0, OSError)
         troubled["send"] = False

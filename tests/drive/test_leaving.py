@@ -133,7 +133,7 @@ def test_a_simulated_truck_that_fails_itself_is_left_with_the_pack_open(
         progress = Progress(rig)
         stage = rig.stage(is_over=lambda: progress.look() is Phase.CLOSED and name != "_command")
         method: Callable[..., Any] = getattr(Vcu, name)
-        failed: list[object] = []
+        failed: list[str] = []
 
         def failing(self: Vcu, *given: Any) -> Any:
             if failed or progress.look() is Phase.CLOSED or name == "withdraw":

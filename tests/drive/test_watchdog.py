@@ -50,21 +50,22 @@ def test_off_is_sent_again_and_again_where_no_beat_comes_and_on_no_more(
     near: can.BusABC, far: can.BusABC, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(watchdog, "_PATIENCE", 0.3)
-    warned = threading.Event()
+    warned = threading.Semaphore(0)
     with NotingBus(near, lambda _: None) as bus:
-        dog = Watchdog([bus], SystemClock(), warned.set)
+        dog = Watchdog([bus], SystemClock(), warned.release)
         with dog:
             bus.send(command(HvCommand.HV_ON, 0))
             heard = commands(far, ENOUGH)
             assert next(heard) == HvCommand.HV_ON
             assert [next(heard) for _ in range(5)] == [HvCommand.HV_OFF] * 5
-            assert warned.wait(ENOUGH)
+            assert warned.acquire(timeout=ENOUGH)
             with pytest.raises(HungError, match=r"what acts was ended$"):
                 bus.send(command(HvCommand.HV_ON, 1))
             dog.beat()
             with pytest.raises(HungError):
                 dog.check()
         assert not dog.is_late
+        assert not warned.acquire(blocking=False)  # once is enough
         assert set(commands(far)) <= {HvCommand.HV_OFF}
 
 
