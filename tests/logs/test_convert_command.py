@@ -19,7 +19,7 @@ from logs.table_logs import START, traffic, write_frames
 
 import swapcan
 from swapcan import cli
-from swapcan.commands import convert, log_options
+from swapcan.commands import log_options
 from swapcan.logs import tables
 from swapcan.messages import B2V_ST1, B2V_ST2, MESSAGES
 from typedcan.logs.pipeline import Layout, Options
@@ -29,11 +29,6 @@ from typedcan.logs.raster import raster_step
 
 _DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"
 _OTHER = Path(__file__).parents[1] / "fixtures" / "dbc" / "motorola.dbc"
-
-
-@pytest.fixture(autouse=True)
-def _only_convert(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cli, "_COMMANDS", (convert.COMMAND,))
 
 
 @pytest.fixture(scope="module")

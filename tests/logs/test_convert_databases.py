@@ -10,17 +10,11 @@ import pytest
 
 import swapcan
 from swapcan import cli
-from swapcan.commands import convert
 from swapcan.logs import Mode, Options, tables
 from swapcan.messages import B2V_ST2, BMS_TMS_0
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "fixtures" / "logs"
-
-
-@pytest.fixture(autouse=True)
-def _only_convert(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cli, "_COMMANDS", (convert.COMMAND,))
 
 
 def candump(path: Path, *frames: str) -> Path:

@@ -11,13 +11,7 @@ import pytest
 from logs.table_logs import START, traffic, write_frames
 
 from swapcan import cli
-from swapcan.commands import convert
 from swapcan.messages import B2V_ST2
-
-
-@pytest.fixture(autouse=True)
-def _only_convert(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cli, "_COMMANDS", (convert.COMMAND,))
 
 
 @pytest.fixture(scope="module")

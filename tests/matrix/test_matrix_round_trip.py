@@ -35,7 +35,7 @@ def through_a_workbook(protocol: Protocol, folder: Path) -> Protocol:
 
 
 def carried(protocol: Protocol) -> Protocol:
-    """The protocol without what no matrix says: Python names, transfers, unused value tables.
+    """The protocol without what no matrix says: Python names, reserved bits, transfers, unused tables.
 
     Receivers stand in the order of the nodes' columns.
     """
@@ -43,6 +43,7 @@ def carried(protocol: Protocol) -> Protocol:
     messages = tuple(
         dataclasses.replace(
             message,
+            reserved=(),
             signals=tuple(
                 dataclasses.replace(
                     each,
