@@ -35,7 +35,7 @@ def through_a_workbook(protocol: Protocol, folder: Path) -> Protocol:
 
 
 def carried(protocol: Protocol) -> Protocol:
-    """The protocol without what no matrix says: Python names, reserved bits, transfers, unused tables.
+    """The protocol without what no matrix says, such as names of Python fields and reserved bits.
 
     Receivers stand in the order of the nodes' columns.
     """
