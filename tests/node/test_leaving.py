@@ -189,6 +189,33 @@ def test_a_bus_that_was_lost_is_opened_anew_to_end_what_acts(
     assert len(trailing_offs(heard + rest(far))) >= 5
 
 
+def test_a_bus_that_only_receives_is_opened_anew_to_end_what_acts(
+    rough: RoughBus, open_bus: Callable[..., can.BusABC], far: can.BusABC
+) -> None:
+    with Node(PROTOCOL, "VCU", rough, reopen=open_bus) as node:
+        node.set(ON)
+        heard = frames_until(far, is_on)
+        rough.before_send = raising(OSError)
+    assert len(trailing_offs(heard + rest(far))) >= 5
+
+
+def test_what_is_opened_and_is_no_bus_does_not_replace_one_that_still_sends(
+    rough: RoughBus, far: can.BusABC
+) -> None:
+    tried = threading.Event()
+
+    def reopen() -> can.BusABC:
+        tried.set()
+        return None  # type: ignore[return-value]
+
+    with Node(PROTOCOL, "VCU", rough, reopen=reopen) as node:
+        node.set(ON)
+        heard = frames_until(far, is_on)
+        rough.before_recv = raising(OSError)
+        assert tried.wait(5)
+    assert len(trailing_offs(heard + rest(far))) >= 5
+
+
 def test_async_with_ends_what_acts(near: can.BusABC, far: can.BusABC) -> None:
     async def scenario() -> list[can.Message]:
         async with Node(PROTOCOL, "VCU", near) as node:

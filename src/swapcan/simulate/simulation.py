@@ -149,7 +149,7 @@ class Simulation:
     def close(self) -> None:
         """End what the nodes have commanded, unless that is simulated too, and close all buses."""
         if not self.wires and hasattr(self, "world"):
-            self.world.send_safe_codes()
+            self.world.leave()
         for buses in self.buses.values():
             for bus in buses:
                 bus.shutdown()

@@ -16,7 +16,7 @@ from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
 from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
-from typedcan.wire.errors import StillActingError, one_line
+from typedcan.wire.errors import SendingError, StillActingError, one_line
 
 STEP = 0.01
 """Seconds from one step of the participants to the next."""
@@ -29,6 +29,8 @@ _BETWEEN = 0.05
 
 _PATIENCE = 1.5
 """Seconds to wait for the thread to end; one that hangs in a driver never does."""
+
+_STOPPED = "the world has been stopped by a signal, it sends nothing more"
 
 
 class World:
@@ -72,6 +74,7 @@ class World:
         self._is_over = False
         self._thread: threading.Thread | None = None
         self._failure: BaseException | None = None
+        self._runs_in: int | None = None  # the thread that is in `run`
         for participant in participants:
             participant.line = self.line
 
@@ -95,27 +98,35 @@ class World:
     def run(self, seconds: float) -> None:
         """Let so many seconds pass; `math.inf` for ever.
 
-        Raises `RuntimeError` while it lives in a thread of its own.
+        Raises `RuntimeError` while it lives in a thread of its own, and in real time `SendingError`
+        once a signal such as Ctrl-Z has stopped it; the safe codes of what acts were sent before.
         """
         if self._thread:
             raise RuntimeError("the world is running already, in a thread of its own")
-        self._live(seconds)
-
-    def send_safe_codes(self) -> None:
-        """Send once the safe codes of what acts, as long as the buses take them."""
-        for node in self._nodes:
-            if node.acting:
-                node.send_safe_codes()
+        if isinstance(self.clock, SimulatedClock):
+            self._live(seconds)
+            return
+        if self._is_over:
+            raise SendingError(_STOPPED)
+        LAST_WORDS.add(self)
+        self._runs_in = threading.get_ident()
+        try:
+            self._live(seconds)
+        finally:
+            self._runs_in = None
+            LAST_WORDS.discard(self)
 
     def speak_last(self) -> None:
         """Before a signal ends or stops the process: nothing acts any more."""
         self._is_over = True  # the lock of an event may be held by what the signal interrupted
         if self._thread:
             self._thread.join(_PATIENCE)
-        self._leave()
+        self.leave()
 
     def go_on(self) -> None:
-        """After a signal that only stopped the process."""
+        """After a signal that only stopped the process: what it interrupted sends nothing."""
+        if self._runs_in == threading.get_ident():
+            raise SendingError(_STOPPED)
 
     def __enter__(self) -> Self:
         self._stop.clear()
@@ -136,7 +147,7 @@ class World:
         if self._thread:
             self._thread.join(_PATIENCE)
             self._thread = None
-        self._leave()
+        self.leave()
         LAST_WORDS.discard(self)
         failure, self._failure = self._failure, None
         names = [message.NAME for node in self._nodes for message in node.acting]
@@ -148,7 +159,7 @@ class World:
         if failure and error:
             error.add_note(one_line(failure))
 
-    def _leave(self) -> None:
+    def leave(self) -> None:
         """In real time send the safe codes of what acts, several times: a frame can get lost."""
         acting = [node for node in self._nodes if node.acting]
         if isinstance(self.clock, SimulatedClock):
@@ -163,7 +174,7 @@ class World:
             self._live(math.inf)
         except BaseException as failure:  # noqa: BLE001  (is raised where the world is left)
             self._failure = failure
-            self._leave()
+            self.leave()
 
     def _live(self, seconds: float) -> None:
         now = self.clock.now()

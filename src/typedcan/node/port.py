@@ -97,8 +97,11 @@ class Port:
             return None
 
     def renew(self) -> None:
-        """Open another bus now where the one at hand is lost; raises what that raises."""
-        if self._retry_at < math.inf and self._reopen:
+        """Open another bus now where the one at hand is lost; raises what that raises.
+
+        One that refuses to send only may just have a full queue, but this is the last time to ask.
+        """
+        if self._broken and self._reopen:
             self._open_another(self._reopen)
 
     def close(self) -> None:
@@ -125,7 +128,10 @@ class Port:
         try:
             with suppress(Exception):  # a bus that is gone need not be closed
                 self.close()  # before the new one: most adapters can be open only once
-            self._bus = reopen()
+            bus = reopen()
+            if not isinstance(bus, can.BusABC):  # the one at hand may still send
+                raise can.CanInitializationError(f"reopen gave {type(bus).__name__}, not a bus")
+            self._bus = bus
             self._owns_bus = True
         finally:
             self._opening.release()
