@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable
 
 import can
@@ -40,15 +41,15 @@ def own(*, is_rx: bool = True) -> can.Message:
 
 
 def intruder(seconds: Iterable[float], *arrive: can.Message | None) -> bool:
-    """Whether frames count as another's that arrive one each second, one's own being sent at 0."""
-    clock = SimulatedClock()
+    """Whether frames count as another's that arrive so many seconds after one's own was sent."""
+    clock = SimulatedClock(10.0)
     with (
         Given(*arrive) as bus,
         NotingBus(bus, lambda _: None, clock=clock, played=[NUMBER]) as noting,
     ):
         noting.send(own())
         for second in seconds:
-            clock.advance_to(second)
+            clock.advance_to(10.0 + second)
             noting.recv(0)
         return noting.intruder is not None
 
@@ -126,3 +127,48 @@ def test_an_impossible_time_is_the_time_of_arrival_and_spoils_no_other(second: f
         (3, 1000.0),
         (4, 1000.25),
     ]
+
+
+def noted_at(clock: SimulatedClock, *arrive: can.Message) -> list[float]:
+    """The times that frames are noted with."""
+    noted: list[can.Message] = []
+    with Given(*arrive) as bus, NotingBus(bus, noted.append, clock=clock) as noting:
+        while noting.recv(0):
+            pass
+    return [each.timestamp for each in sorted(noted, key=lambda each: each.arbitration_id)]
+
+
+def at(number: int, second: float) -> can.Message:
+    return can.Message(arbitration_id=number, timestamp=second)
+
+
+def test_an_adapter_may_count_from_when_it_was_plugged_in() -> None:
+    assert noted_at(SimulatedClock(5000.0), at(1, 0.5), at(2, 0.75)) == [5000.0, 5000.25]
+
+
+def test_a_time_that_leaps_by_hours_is_the_time_of_arrival() -> None:
+    found = noted_at(SimulatedClock(5000.0), at(1, 5.0), at(2, 9000.0), at(3, 5.5))
+    assert found == [5000.0, 5000.0, 5000.5]
+
+
+def test_frames_without_a_time_have_each_that_of_their_arrival() -> None:
+    clock = SimulatedClock(10.0)
+    noted: list[can.Message] = []
+    with (
+        Given(at(1, 0.0), at(2, 0.0)) as bus,
+        NotingBus(bus, noted.append, clock=clock) as noting,
+    ):
+        assert noting.recv(0)
+        clock.advance_to(12.0)
+        assert noting.recv(0)
+    assert [each.timestamp for each in noted] == [10.0, 12.0]
+
+
+def test_in_real_time_both_directions_have_the_time_of_day() -> None:
+    noted: list[can.Message] = []
+    second = time.time() - 0.01
+    with Given(at(1, second)) as bus, NotingBus(bus, noted.append) as noting:
+        assert noting.recv(0)
+        noting.send(own())
+    assert noted[0].timestamp == second
+    assert noted[1].timestamp == pytest.approx(time.time(), abs=30.0)

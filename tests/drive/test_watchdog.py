@@ -127,6 +127,13 @@ def test_on_a_simulated_clock_there_is_no_thread(near: can.BusABC) -> None:
         assert not dog.is_late
 
 
+@pytest.mark.skipif(not hasattr(time, "CLOCK_BOOTTIME"), reason="there is no such clock here")
+def test_the_time_in_which_the_machine_sleeps_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    clocks = {time.CLOCK_BOOTTIME: 42.0}
+    monkeypatch.setattr(time, "clock_gettime", clocks.__getitem__)
+    assert watchdog._now() == 42.0
+
+
 class HangingIn:
     """Hangs the main thread once the pack is closed, until the pack is open again."""
 
