@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import can
 import pytest
 from _pytest.mark import ParameterSet
 from conform.live_lines import values
 from conform.live_rig import Bench, bench
+from conform.test_live_safety import Sleeping
 from drive.trouble import EXCEPTIONS, OTHERS, PLACES, Trouble, play
 
 from swapcan.conform.live.scenario import Scenario
@@ -90,3 +92,21 @@ def test_it_leaves_a_pack_that_does_not_charge(
         if not is_bus or not for_good:
             assert stage.left is Left.SAFE
         assert stage.left is not Left.UNTOUCHED
+
+
+def test_a_pack_that_has_said_that_it_stopped_may_be_asleep_when_the_charger_was_taken_off() -> (
+    None
+):
+    rigs: list[Bench] = []
+    with bench(lambda bus: Sleeping(bus, rigs, 8.0)) as rig:
+        rigs.append(rig)
+        wire = OnTheWire(rig)
+        short = replace(SCENARIO, plan=plan_of("charge@100ms+4s"), seconds=8.5)
+        stage, raised = play(
+            rig, Trouble(OSError, lambda _: False, for_good=False), "recv", short, ["CHG"]
+        )
+        assert raised is None
+        assert not wire.is_charging
+        assert ChargeControl.START_TO_CHARGE in wire.wanted
+        assert stage.left is Left.SAFE
+        assert rig.clock.now() < 10.0  # nothing had to be waited for
