@@ -19,9 +19,22 @@ from typedcan.model.protocol import Protocol
 # Many tests run commands as processes of their own: let those keep their bytecode.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
-# A job in the background ignores SIGINT, and so would every command that a test interrupts.
+# A job in the background ignores some signals, one under nohup ignores others, and so would every
+# command that a test sends one of them; what does nothing here is no handler there.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+for _name in (
+    "SIGHUP",
+    "SIGQUIT",
+    "SIGTERM",
+    "SIGUSR1",
+    "SIGUSR2",
+    "SIGTSTP",
+    "SIGTTIN",
+    "SIGTTOU",
+):
+    if hasattr(signal, _name) and signal.getsignal(getattr(signal, _name)) is signal.SIG_IGN:
+        signal.signal(getattr(signal, _name), lambda *_: None)
 
 settings.register_profile(
     "repeatable", derandomize=True, database=None, deadline=None, max_examples=60

@@ -92,7 +92,7 @@ def test_a_value_of_another_kind_is_a_fault_that_says_what_was_expected(
 @pytest.mark.parametrize("text", ["BMU", "BMU->VCU", "BMU>VCU>TMS", "BMU>", "BMU>VCU, TMS"])
 def test_what_is_no_route_is_a_fault_with_an_example(text: str) -> None:
     (fault,) = faults(ROUTE.read, f'"{text}"')
-    assert fault.startswith("t:1:1: expected a route such as BMU>VCU")
+    assert fault.startswith("t:1:1: expected a route such as ECU1>ECU2")
 
 
 def test_every_faulty_item_of_a_list_or_mapping_is_reported() -> None:
