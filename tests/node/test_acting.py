@@ -119,24 +119,28 @@ OFF = V2B_CMD(hv_on_off=HvCommand.HV_OFF, hv_acc_on_off=AccessoryHvCommand.HV_AC
 COOL = BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF, reqst_set_tms_sts=ThermalMode.COOLING)
 
 
+def acting(sent: SentCommands) -> list[Message]:
+    return list(sent.acting)
+
+
 def test_what_acts_counts_from_before_it_is_sent_until_something_else_was_sent() -> None:
     sent = SentCommands()
-    assert ([*sent.acting], [*sent.all]) == ([*()], [*()])
+    assert (acting(sent), sent.all) == ([], ())
     sent.begin(ON)
-    assert [*sent.acting] == [*(ON,)]  # it may go out although sending it fails
+    assert acting(sent) == [ON]  # it may go out although sending it fails
     sent.begin(OFF)
-    assert [*sent.acting] == [*(OFF,)]  # which has not gone out yet, as far as is known
+    assert acting(sent) == [OFF]  # which has not gone out yet, as far as is known
     sent.end(OFF)
-    assert ([*sent.acting], [*sent.all]) == ([], [OFF])
+    assert (acting(sent), sent.all) == ([], (OFF,))
 
 
 def test_what_went_out_after_its_safe_codes_counts_again() -> None:
     sent = SentCommands()
     sent.begin(ON)
     sent.made_safe(ON)
-    assert [*sent.acting] == [*()]
+    assert acting(sent) == []
     sent.end(ON)
-    assert [*sent.acting] == [*(ON,)]
+    assert acting(sent) == [ON]
 
 
 def test_each_message_counts_on_its_own_and_others_do_not() -> None:
@@ -144,10 +148,10 @@ def test_each_message_counts_on_its_own_and_others_do_not() -> None:
     for message in (COOL, B2V_ST2(), OFF, ON):
         sent.begin(message)
         sent.end(message)
-    assert [*sent.acting] == [*(COOL, ON)]
-    assert [*sent.all] == [*(COOL, ON)]
+    assert acting(sent) == [COOL, ON]
+    assert sent.all == (COOL, ON)
     sent.made_safe(COOL)
-    assert [*sent.acting] == [*(ON,)]
+    assert acting(sent) == [ON]
     sent.begin(B2V_ST2())
     sent.end(B2V_ST2())
-    assert [*sent.acting] == [*(ON,)]
+    assert acting(sent) == [ON]
