@@ -2,7 +2,8 @@
 
 Run as a program, in a process of its own, with the folder that the packages lie in, and the name of
 a package and its DBC file for each: ``python -m typedcan.trial FOLDER PACKAGE FILE.dbc``. It prints
-a fault a line and exits 1 where there is one.
+a fault a line and exits 1 where there is one; else it prints the messages of which nothing can be
+said, as cantools decodes none of their payloads.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ import cantools.database
 from cantools.database.can import Database
 from cantools.database.can import Message as CantoolsMessage
 
+from typedcan.model import layout
+from typedcan.model.protocol import Signal
 from typedcan.shell.printing import print_line
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import Entry, database
@@ -31,6 +34,9 @@ from typedcan.wire.protocol import Protocol
 _PAYLOADS = 6
 """Random payloads that each message is tried with, beside those of all 0 and all 1."""
 
+_BRANCHES = 100
+"""Signals of branches that are tried, of a message."""
+
 _EXACT = 1 << 53
 
 Raw = Mapping[str, int | float]
@@ -40,14 +46,19 @@ def main(arguments: Sequence[str]) -> int:
     """Try the packages that are named, print what is wrong, and say whether something is."""
     folder, package, file = arguments
     sys.path.insert(0, str(Path(folder).resolve()))
-    faults = [*tried(package, Path(file))]
-    for fault in faults:
-        print_line(fault)
+    untold: list[str] = []
+    faults = [*tried(package, Path(file), untold)]
+    for line in faults or untold:
+        print_line(line)
     return 1 if faults else 0
 
 
-def tried(package: str, file: Path) -> Iterator[str]:
-    """What is wrong with a package, a line each; ``file`` is its DBC."""
+def tried(package: str, file: Path, untold: list[str]) -> Iterator[str]:
+    """What is wrong with a package, a line each; ``file`` is its DBC.
+
+    ``untold`` gets the messages of which cantools decodes nothing, such as those with signals that
+    overlap or lie outside: nothing can be said of them.
+    """
     try:
         protocol: Protocol = importlib.import_module(f"{package}.protocol").PROTOCOL
         codec = Codec(protocol)
@@ -65,7 +76,10 @@ def tried(package: str, file: Path) -> Iterator[str]:
             yield f"{kind.NAME}: is not in {file.name}"
             continue
         try:
-            yield from _Trial(codec, entry, message).faults()
+            trial = _Trial(codec, entry, message)
+            yield from trial.faults()
+            if not trial.compared:
+                untold.append(kind.NAME)
         except Exception as error:  # noqa: BLE001
             yield f"{kind.NAME}: {one_line(error)}"
 
@@ -78,12 +92,17 @@ class _Trial:
         self._entry = entry
         self._kind = entry.type
         self._theirs = theirs
+        self.compared = False
         self._fields = {each.dbc_name: each for each in self._kind.FIELDS.values()}
 
     def faults(self) -> Iterator[str]:
         """The first thing that is wrong, if any."""
+        names = {None, *(each.name for each in self._theirs.signals)}
+        if not names.issuperset(each.multiplexer_signal for each in self._theirs.signals):
+            return  # cantools loses the branches of a selector that has a long name
         for data in self._payloads():
             raw = self._raw(data)
+            self.compared |= raw is not None
             if raw is not None and (fault := self._decoded(data, raw) or self._encoded(data, raw)):
                 yield f"{self._kind.NAME}: {fault}"
                 return
@@ -97,6 +116,21 @@ class _Trial:
         source = random.Random(self._kind.NAME)
         for _ in range(_PAYLOADS if length else 0):
             yield source.randbytes(length)
+        for selected in self._branches():
+            yield _with_codes(source.randbytes(length), selected)
+
+    def _branches(self) -> Iterator[dict[Signal, int]]:
+        """Values of the selectors with which each branch is there, others at one that they know."""
+        by_name = {signal.name: signal for signal in self._kind.MODEL.signals}
+        within = [each for each in by_name.values() if each.multiplexer in by_name]
+        usual = {by_name[each.multiplexer]: each.selectors[0] for each in reversed(within)}
+        for signal in within[:_BRANCHES]:
+            selected, inner = dict(usual), signal
+            for _ in within:  # no deeper than that
+                if inner.multiplexer in by_name:
+                    selected[by_name[inner.multiplexer]] = inner.selectors[0]
+                    inner = by_name[inner.multiplexer]
+            yield selected
 
     def _raw(self, data: bytes) -> Raw | None:
         """The raw values by cantools; None where it knows no such branch or a float is none."""
@@ -154,6 +188,16 @@ class _Trial:
             return ""  # what is sent of no value is outside of the range
         raw = self._raw(data)
         return self._decoded(data, raw) if raw is not None else ""
+
+
+def _with_codes(data: bytes, codes: Mapping[Signal, int]) -> bytes:
+    """A payload with other raw values of some signals."""
+    number = int.from_bytes(data, "little")
+    for signal, code in codes.items():
+        for place, bit in enumerate(layout.bits(signal)):
+            number = number & ~(1 << bit) | (code >> place & 1) << bit
+    room = (1 << 8 * len(data)) - 1
+    return (number & room).to_bytes(len(data), "little")
 
 
 def _needed(kind: type[Message]) -> list[Field]:

@@ -29,7 +29,9 @@ def main() -> int:
     for outcome in Outcome:
         print(f"{sum(each.outcome is outcome for each in results):6} {outcome.value}")
     sound = [each for each in results if each.outcome is Outcome.SOUND]
-    print(f"{sum(each.messages for each in sound):6} messages encoded and decoded as by cantools")
+    untold = sum(each.untold for each in sound)
+    print(f"{sum(each.messages for each in sound) - untold:6} messages as cantools has them")
+    print(f"{untold:6} messages of which cantools decodes no payload: imported, not compared")
     return 1 if any(each.outcome is Outcome.FAILED for each in results) else 0
 
 

@@ -29,12 +29,16 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A file, what became of it and why, and how many messages its package has."""
+    """A file, what became of it and why, and how many messages its package has.
+
+    Of ``untold`` messages cantools decodes no payload, so that there is nothing to compare.
+    """
 
     path: Path
     outcome: Outcome
     why: str = ""
     messages: int = 0
+    untold: int = 0
 
 
 def databases_in(folder: Path) -> list[Path]:
@@ -77,4 +81,6 @@ def try_one(path: Path, *, seconds: float = 600) -> Result:
     if done.returncode:
         said = [*done.stdout.splitlines(), *done.stderr.splitlines()[-1:]]
         return Result(path, Outcome.FAILED, "; ".join(said[:3]) + f" ({len(said)} in all)")
-    return Result(path, Outcome.SOUND, messages=len(protocol.messages))
+    return Result(
+        path, Outcome.SOUND, messages=len(protocol.messages), untold=len(done.stdout.splitlines())
+    )

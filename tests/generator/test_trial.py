@@ -68,6 +68,23 @@ def test_a_package_that_does_otherwise_is_refused_in_one_line(spoil: Spoil) -> N
     assert "\n" not in str(caught.value)
 
 
+def test_a_branch_is_tried_however_seldom_it_is_selected(tmp_path: Path) -> None:
+    path = tmp_path / "rare.dbc"
+    path.write_text(
+        'VERSION ""\n\nBU_: A\nBO_ 1 Rare: 8 A\n'
+        ' SG_ Page M : 0|32@1+ (1,0) [0|0] "" A\n'
+        ' SG_ Value m123456789 : 32|8@1+ (2,0) [0|510] "x" A\n',
+        "ascii",
+    )
+    files = foreign_artifacts(open_side(str(path)).protocol, "rare")
+    try_package(files, "rare", "rare.dbc")
+    text = files["rare/decoders.py"].decode()
+    assert "* 2.0" in text
+    files["rare/decoders.py"] = text.replace("* 2.0", "* 3.0").encode()
+    with pytest.raises(ReadError, match="Rare: value is"):
+        try_package(files, "rare", "rare.dbc")
+
+
 def test_generate_from_writes_nothing_of_a_package_that_fails(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
