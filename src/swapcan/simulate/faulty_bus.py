@@ -20,6 +20,9 @@ from typedcan.wire.message import Message
 from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from typedcan.wire.protocol import Protocol
 
+_AT_MOST = 0.1
+"""Seconds to wait for another thread that is sending or receiving."""
+
 _EVERY = 4
 """One frame in so many is lost, late, or has a wrong checksum."""
 
@@ -121,20 +124,29 @@ class FaultyBus(can.BusABC):
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send a frame, or what the faults make of it; raises as the other bus does."""
-        with self._lock:
-            self.release()
-            kind = self._kind(msg)
-            if self._hits("bus_silence", msg, kind) or self._hits("lost_frame", msg, kind):
-                return
-            frame = self._altered(msg, kind) if kind else msg
-            queue = self._held.get(msg.arbitration_id)
-            due = queue[-1][0] if queue else -math.inf  # frames of a message keep their order
-            if self._hits("late_frame", msg, kind):
-                due = max(due, self._clock.now() + _holding_time(kind))
-            if due == -math.inf:
-                self._bus.send(frame, timeout)
-            else:
-                self._held.setdefault(msg.arbitration_id, deque()).append((due, copy(frame)))
+        # Who has it may have been interrupted by a signal: then the safe codes go out all the same.
+        if not self._lock.acquire(timeout=_AT_MOST):
+            self._bus.send(msg, timeout)
+            return
+        try:
+            self._send(msg, timeout)
+        finally:
+            self._lock.release()
+
+    def _send(self, msg: can.Message, timeout: float | None) -> None:
+        self.release()
+        kind = self._kind(msg)
+        if self._hits("bus_silence", msg, kind) or self._hits("lost_frame", msg, kind):
+            return
+        frame = self._altered(msg, kind) if kind else msg
+        queue = self._held.get(msg.arbitration_id)
+        due = queue[-1][0] if queue else -math.inf  # frames of a message keep their order
+        if self._hits("late_frame", msg, kind):
+            due = max(due, self._clock.now() + _holding_time(kind))
+        if due == -math.inf:
+            self._bus.send(frame, timeout)
+        else:
+            self._held.setdefault(msg.arbitration_id, deque()).append((due, copy(frame)))
 
     def release(self) -> None:
         """Send the frames that were held back long enough, as `send` and `recv` do too."""
