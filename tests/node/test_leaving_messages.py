@@ -9,10 +9,12 @@ import can
 import pytest
 from node.bench import Bench, at_rest, frames_on
 from node.rough_bus import (
+    RoughBus,
     commands,
     frames_until,
     is_off,
     is_on,
+    raising,
     rest,
     signals,
     trailing_offs,
@@ -95,6 +97,31 @@ def test_every_message_that_acts_is_ended_with_its_own_codes(
     lives = [frame.data[6] for frame in heard if frame.arbitration_id == BMS_TMS_0.FRAME_ID]
     assert lives == list(range(len(lives)))
     assert signals(heard[-1]).get("B2C_S_CurrentSet", 50 * 10) == 50 * 10
+
+
+def test_safe_codes_can_be_sent_at_any_time_and_cycles_go_on(
+    bench: Bench, rough: RoughBus, far: can.BusABC
+) -> None:
+    node = bench.node("VCU", rough)
+    assert node.send_safe_codes() is None
+    assert rest(far) == []
+    node.set(ON)
+    bench.run(0.1)
+    assert is_on(rest(far)[-1])
+    assert node.send_safe_codes() is None
+    (frame,) = rest(far)
+    assert is_off(frame)
+    assert [*node.acting] == []
+    bench.run(0.2)
+    assert is_on(rest(far)[-1])
+    assert [*node.acting] == [ON]
+    rough.before_send = raising(lambda: OSError("Network is down"))
+    failure = node.send_safe_codes()
+    assert isinstance(failure, OSError)
+    assert [*node.acting] == [ON]
+    rough.before_send = raising(KeyboardInterrupt, times=1)
+    with pytest.raises(KeyboardInterrupt):
+        node.send_safe_codes()
 
 
 def test_two_nodes_end_what_each_has_commanded(

@@ -177,6 +177,23 @@ def test_a_bus_that_does_not_wait_for_frames_costs_little_and_time_goes_on(
         frames_until(far, is_off)
 
 
+def test_nobody_stands_in_for_one_who_comes_round(
+    far: can.BusABC, vcu: Node, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[str] = []
+    start = threading.Thread.start
+
+    def note_and_start(thread: threading.Thread) -> None:
+        started.append(thread.name)
+        start(thread)
+
+    monkeypatch.setattr(threading.Thread, "start", note_and_start)
+    with vcu:
+        vcu.set(ON)
+        assert all(far.recv(30.0) for _ in range(5))
+    assert started == ["swapcan-VCU-send", "swapcan-VCU-receive"]
+
+
 def test_who_receives_again_takes_over_again(rough: RoughBus, far: can.BusABC, vcu: Node) -> None:
     entered, goes_on = threading.Event(), threading.Event()
 
