@@ -26,7 +26,9 @@ from swapcan.messages import (
     BMS_TMS_0,
     V2B_CMD,
     B2C_Charger,
+    C2B_ACStatus,
     ChargeControl,
+    ChargerOperation,
     HvCommand,
     HvRequest,
     ThermalMode,
@@ -171,6 +173,27 @@ def test_leaving_that_is_broken_into_again_and_again_ends_all_the_same(
         assert isinstance(driven.driving.interrupted, KeyboardInterrupt)
 
 
+def test_what_acts_can_be_ended_in_the_middle_of_a_scenario_and_stays_so() -> None:
+    """As is done before a signal stops the process at its terminal."""
+    with bench() as rig:
+        progress = Progress(rig)
+        ended: list[int] = []
+
+        def end(*_: object) -> None:
+            if not ended and progress.look() is Phase.CLOSED:
+                stage.send_safe_codes()
+                ended.append(len(progress.commands))
+
+        stage = Stage(rig.tester, clock=rig.clock, wires=(rig.wire,), watch=end)
+        assert not stage.hangs
+        stage.send_safe_codes()  # of nothing
+        stage.play(SCENARIO, ["VCU"], lambda _: None)
+        assert not stage.hangs
+        progress.look()
+        assert set(progress.commands[ended[0] :]) == {HvCommand.HV_OFF}
+        assert stage.left is Left.SAFE
+
+
 @pytest.mark.parametrize("line", [9, 17, 33, 60, 130, 400, 1100, 3000])
 def test_an_interrupt_at_any_line_of_the_leaving_does_not_cut_it_short(line: int) -> None:
     """Ctrl-C, where nobody has taken it over, comes between any two lines."""
@@ -240,6 +263,8 @@ def test_a_simulated_pack_that_charges_and_cools_ends_that_for_the_others() -> N
             last[frame.arbitration_id] = values(frame)
         assert not charger.charging
         assert charger.current == 0.0
+    # That the charger has said so was waited for.
+    assert last[C2B_ACStatus.FRAME_ID]["C2B_St_ChargerStart"] != ChargerOperation.ON
     stop, unit = last[B2C_Charger.FRAME_ID], last[BMS_TMS_0.FRAME_ID]
     assert stop["B2V_S_ChargeControl"] == ChargeControl.NORMAL_STOP_TO_CHARGE
     assert unit["BMS_ReqstSetTMSts"] == ThermalMode.OFF
