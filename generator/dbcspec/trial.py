@@ -55,5 +55,6 @@ def _run(folder: Path, package: str, dbc: Path) -> list[str]:
     )
     if done.returncode == 0:
         return []
-    said = (done.stdout if done.returncode == 1 and done.stdout else done.stderr).splitlines()
-    return said if done.returncode == 1 and done.stdout else said[-1:] or ["it cannot be tried"]
+    if done.returncode == 1 and done.stdout:
+        return done.stdout.splitlines()
+    return done.stderr.splitlines()[-1:] or ["it cannot be tried"]

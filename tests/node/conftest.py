@@ -12,7 +12,7 @@ import can
 import pytest
 from node.bench import Bench, Ear, Recorder
 from node.programs import Program, running
-from node.rough_bus import RoughBus, made_rough
+from node.rough_bus import Hang, RoughBus, made_rough
 from simulate.commands import bus_options
 
 from typedcan.shell import process_signals
@@ -35,6 +35,17 @@ def bench() -> Bench:
 def rough(near: can.BusABC) -> RoughBus:
     """`near`, which fails and hangs as it is told to."""
     return made_rough(near)
+
+
+@pytest.fixture
+def hang() -> Iterator[Hang]:
+    """Hangs until the test is over, which then waits for the threads of nodes."""
+    hang = Hang()
+    yield hang
+    hang.release()
+    for thread in threading.enumerate():
+        if thread.name.startswith("swapcan"):
+            thread.join(30.0)
 
 
 @pytest.fixture

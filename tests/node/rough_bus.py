@@ -28,6 +28,17 @@ class OwnInterrupt(BaseException):
     """The same, for what is no `Exception`."""
 
 
+class Hang:
+    """Does not return until it is released."""
+
+    def __init__(self) -> None:
+        self._over = threading.Event()
+        self.release = self._over.set
+
+    def __call__(self, *_: object) -> None:
+        self._over.wait()
+
+
 class MuteError(Exception):
     """Cannot even be shown."""
 

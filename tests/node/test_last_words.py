@@ -15,6 +15,7 @@ import can
 import pytest
 from node.bench import Recorder
 from node.rough_bus import (
+    Hang,
     RoughBus,
     frames_until,
     is_off,
@@ -24,7 +25,6 @@ from node.rough_bus import (
     rest,
     trailing_offs,
 )
-from node.test_time_goes_on import Hang
 
 from swapcan import SendingError
 from swapcan._generated.protocol import PROTOCOL

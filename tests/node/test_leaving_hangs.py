@@ -8,12 +8,12 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Iterator
 
 import can
 import pytest
 from node.bench import Recorder
 from node.rough_bus import (
+    Hang,
     RoughBus,
     commands,
     frames_until,
@@ -25,7 +25,6 @@ from node.rough_bus import (
     signals,
     trailing_offs,
 )
-from node.test_time_goes_on import Hang
 
 from swapcan import StillActingError
 from swapcan._generated.protocol import PROTOCOL
@@ -41,16 +40,6 @@ ON = V2B_CMD(hv_on_off=HvCommand.HV_ON)
 def short_patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """For threads that hang until the test releases them."""
     monkeypatch.setattr("typedcan.node.engine._PATIENCE", 0.3)
-
-
-@pytest.fixture
-def hang() -> Iterator[Hang]:
-    hang = Hang()
-    yield hang
-    hang.release()
-    for thread in threading.enumerate():
-        if thread.name.startswith("swapcan"):
-            thread.join(30.0)
 
 
 def hang_once(rough: RoughBus, hang: Hang) -> threading.Event:

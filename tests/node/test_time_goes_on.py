@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
 
 import can
 import pytest
 from node.bench import Recorder
-from node.rough_bus import RoughBus, frames_until, is_off, is_on, nothing, rest
+from node.rough_bus import Hang, RoughBus, frames_until, is_off, is_on, nothing, rest
 
 from swapcan import RequestTimeoutError
 from swapcan._generated.protocol import PROTOCOL
@@ -27,27 +26,6 @@ OFF = V2B_CMD(
 
 def st2() -> can.Message:
     return can.Message(arbitration_id=B2V_ST2.FRAME_ID, data=bytes(8))
-
-
-class Hang:
-    """Does not return until it is released."""
-
-    def __init__(self) -> None:
-        self._over = threading.Event()
-        self.release = self._over.set
-
-    def __call__(self, *_: object) -> None:
-        self._over.wait()
-
-
-@pytest.fixture
-def hang() -> Iterator[Hang]:
-    hang = Hang()
-    yield hang
-    hang.release()
-    for thread in threading.enumerate():
-        if thread.name.startswith("swapcan"):
-            thread.join(30.0)
 
 
 class Program:

@@ -22,6 +22,7 @@ from dbcspec.read.matrix_values import (
 )
 from typedcan.model.acting import usual_start
 from typedcan.model.layout import float_limits
+from typedcan.model.naming import unused
 from typedcan.model.protocol import ByteOrder, Code, Signal, ValueTable
 
 _MOST_BITS = 4_096
@@ -44,10 +45,7 @@ class SharedTables:
         if name and self._by_name.setdefault(name, ValueTable(name, codes)).codes == codes:
             return self._by_name[name]
         if codes not in self._unnamed:
-            free, count = signal, 1
-            while free in self._by_name:
-                count += 1
-                free = f"{signal}_{count}"
+            free = unused(signal, self._by_name)
             self._unnamed[codes] = self._by_name[free] = ValueTable(free, codes)
         return self._unnamed[codes]
 

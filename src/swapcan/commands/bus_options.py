@@ -35,7 +35,7 @@ def add_bus_options(parser: argparse.ArgumentParser) -> None:
         "--bus-kwargs",
         nargs="+",
         action="extend",
-        type=_assignment,
+        type=assignment,
         default=[],
         metavar="NAME=VALUE",
         help="further arguments of the interface, such as app_name=MyApp",
@@ -103,7 +103,8 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
     return {**dict(options.bus_kwargs), **given}
 
 
-def _assignment(text: str) -> tuple[str, str]:
+def assignment(text: str) -> tuple[str, str]:
+    """A name and a value, as the type of an argument."""
     name, equals, value = text.partition("=")
     if not (equals and name.isidentifier()):
         raise argparse.ArgumentTypeError(f"expected NAME=VALUE, not {text!r}")

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from swapcan.commands.bus_options import add_bus_options, bus_name, is_virtual, open_bus
+from swapcan.commands.bus_options import add_bus_options, assignment, bus_name, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
 from swapcan.console import Command, say, seconds
@@ -64,7 +64,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         "--charger-bus",
         nargs="+",
         action="extend",
-        type=_typed(_assignment),
+        type=assignment,
         default=[],
         metavar="NAME=VALUE",
         help="another bus for BMU and CHG to talk on: interface, channel and so on, where they are"
@@ -103,13 +103,6 @@ def _run(options: argparse.Namespace) -> int:
         nodes.live(interrupts)
     interrupts.stop_if_asked()
     return interrupts.status or (0 if nodes.is_safe else 2)
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not (equals and name.isidentifier()):
-        raise PlanError(f"expected NAME=VALUE, not {text!r}")
-    return name, value
 
 
 def _default_plan(names: tuple[str, ...]) -> tuple[PlannedStep, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from typedcan.model.naming import unused
 from typedcan.model.protocol import Code, ValueTable
 
 Codes = tuple[tuple[int, str], ...]
@@ -24,10 +25,7 @@ class ValueTables:
     def of(self, signal: str, codes: Codes) -> ValueTable:
         """The value table of a signal that has these codes."""
         if codes not in self._by_codes:
-            name, count = signal, 1
-            while name in self._tables:
-                count += 1
-                name = f"{signal}_{count}"
+            name = unused(signal, self._tables)
             self._tables[name] = self._by_codes[codes] = _table(name, codes)
         return self._by_codes[codes]
 

@@ -12,7 +12,6 @@ from typedcan.model import protocol as model
 from typedcan.model.kinds import Kind, kind_of
 from typedcan.model.layout import in_bit_order, whole_byte
 from typedcan.wire.fields import (
-    ActingCodes,
     CharacterField,
     Field,
     FilledField,
@@ -99,7 +98,7 @@ def _facts(signal: model.Signal, kind: Kind) -> dict[str, Any]:
         "unit": signal.unit,
         "reference": signal.reference,
         "length": signal.length,
-        "acting": _acting(signal),
+        "acting": signal.acting,
     }
     if kind in (Kind.LABELLED, Kind.CHARACTER) and signal.value_table:
         facts["labels"] = MappingProxyType(signal.value_table.labels())
@@ -109,13 +108,6 @@ def _facts(signal: model.Signal, kind: Kind) -> dict[str, Any]:
         facts |= {"factor": float(signal.factor), "offset": float(signal.offset)}
     minimum, maximum = _limits(signal, kind)
     return {**facts, "minimum": minimum, "maximum": maximum}
-
-
-def _acting(signal: model.Signal) -> ActingCodes | None:
-    acting = signal.acting
-    if acting is None:
-        return None
-    return ActingCodes(codes=frozenset(acting.codes), safe=acting.safe, reports=acting.reports)
 
 
 def _states(signal: model.Signal) -> Mapping[int, SignalState]:

@@ -22,12 +22,12 @@ class Codec:
 
     Parameters
     ----------
-    algorithms
-        Checksum algorithms by name, for those that the standard leaves open: a function from the
-        covered bytes to one byte, for example ``{"Status_CRC": my_crc}``. Without one that checksum
-        is sent as 0 and not verified.
     protocol
-        Another protocol whose package `dbcspec generate` wrote.
+        Whose messages, as a package that `dbcspec generate` wrote has it, or `typed_protocol`.
+    algorithms
+        Checksum algorithms by name, for those that are not known here: a function from the covered
+        bytes to one byte, for example ``{"Status_CRC": my_crc}``. Without one that checksum is sent
+        as 0 and not verified.
     """
 
     def __init__(

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from enum import Enum, IntEnum
 from typing import Any
 
+from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Signal
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.plain import character, integer, real_number, shown, whole_number
@@ -25,24 +26,6 @@ class SignalState(Enum):
 
     def __str__(self) -> str:
         return self.value
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ActingCodes:
-    """Codes of a signal at which its receiver acts, and the code that ends that.
-
-    Parameters
-    ----------
-    codes, safe
-        Raw values: those at which the receiver closes a contactor, charges, heats, cools or
-        pumps, and the one at which it does not.
-    reports
-        The codes command nothing, but say that something is on.
-    """
-
-    codes: frozenset[int]
-    safe: int
-    reports: bool = False
 
 
 Value = float | int | str | SignalState | None

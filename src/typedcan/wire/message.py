@@ -11,7 +11,6 @@ from typing import Any, ClassVar, TypeVar
 from typedcan.model import protocol as model
 from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
 from typedcan.wire.fields import (
-    ActingCodes,
     CharacterField,
     Field,
     FilledField,
@@ -24,7 +23,6 @@ from typedcan.wire.fields import (
 )
 
 __all__ = [
-    "ActingCodes",
     "CharacterField",
     "Checksum",
     "Code1",
