@@ -83,8 +83,7 @@ def _writing() -> Iterator[None]:
 
 def note(text: str) -> None:
     """Print a remark or an error, beside the results; where nobody reads it that is no trouble."""
-    with suppress(OSError, ValueError):  # a terminal that is gone, a stream that is closed
-        print_remark(f"swapcan: {text}")
+    print_remark(f"swapcan: {text}")
 
 
 def warn(text: str) -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import json
+import subprocess
 import sys
 import unicodedata
 import warnings
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -126,3 +129,20 @@ def test_what_a_library_warns_of_is_a_remark_too(capsys: Capture) -> None:
         print_warnings()
         warnings.warn("glyph \x1b is\nmissing", RuntimeWarning, stacklevel=1)
     assert capsys.readouterr() == ("", "RuntimeWarning: glyph \\x1b is\\nmissing\n")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="has no file that takes nothing")
+@pytest.mark.parametrize("tool", ["dbcspec", "swapcan"])
+def test_a_remark_that_nobody_can_read_changes_no_exit_status(tool: str) -> None:
+    with Path("/dev/full").open("w", encoding="ascii") as full:
+        command = [sys.executable, "-m", tool, "no-such-command"]
+        assert subprocess.run(command, stderr=full, check=False, timeout=60).returncode == 2
+
+
+def test_a_remark_to_a_closed_stream_raises_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", stream)
+    print_remark("there")
+    assert stream.getvalue() == "there\n"
+    stream.close()
+    print_remark("nowhere")

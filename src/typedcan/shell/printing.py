@@ -7,6 +7,7 @@ import re
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 
 _SPACES = frozenset(map(chr, (0xA0, 0x1680, *range(0x2000, 0x200B), 0x202F, 0x205F, 0x3000)))
 """Spaces that `str.isprintable` counts among what cannot be seen; Chinese texts have the last."""
@@ -58,9 +59,10 @@ def print_text(text: str, *, coloured: bool = False) -> None:
 
 
 def print_remark(text: str) -> None:
-    """Print a line beside the results: an error, or what is done."""
+    """Print a line beside the results: an error, or what is done; that nobody reads it is fine."""
     if sys.stderr:  # else print would take stdout
-        print(printable(text), file=sys.stderr, flush=True)
+        with suppress(OSError, ValueError):  # a terminal that is gone, a stream that is closed
+            print(printable(text), file=sys.stderr, flush=True)
 
 
 def print_warnings() -> None:
