@@ -40,19 +40,22 @@ def _run(folder: Path, package: str, dbc: Path) -> list[str]:
     paths = (str(Path(typedcan.__file__).parents[1]), os.environ.get("PYTHONPATH", ""))
     # -P: what lies in the folder where the command is run must not stand before what is imported.
     command = [sys.executable, "-P", "-m", _PROGRAM, str(folder), package, str(dbc)]
-    done = subprocess.run(
-        command,
-        capture_output=True,
-        encoding="utf-8",
-        errors="replace",
-        check=False,
-        timeout=_SECONDS,
-        env={
-            **os.environ,
-            "PYTHONPATH": os.pathsep.join(filter(None, paths)),
-            "PYTHONIOENCODING": "utf-8",
-        },
-    )
+    try:
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            check=False,
+            timeout=_SECONDS,
+            env={
+                **os.environ,
+                "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+                "PYTHONIOENCODING": "utf-8",
+            },
+        )
+    except subprocess.TimeoutExpired:
+        return [f"{package}: is not imported and tried within {_SECONDS} s"]
     if done.returncode == 0:
         return []
     if done.returncode == 1 and done.stdout:

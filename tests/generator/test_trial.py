@@ -53,6 +53,14 @@ def an_exit(files: Files) -> None:
 WAYS = [broken_code, no_python, other_values, other_bits, no_message, an_exit]
 
 
+def test_a_package_that_hangs_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    files = foreign_artifacts(open_side(str(CASE)).protocol, "gear_8")
+    files["gear_8/messages.py"] += b"\nwhile True: pass\n"
+    monkeypatch.setattr("dbcspec.trial._SECONDS", 1)
+    with pytest.raises(ReadError, match="gear_8: is not imported and tried within 1 s"):
+        try_package(files, "gear_8", "gear_8.dbc")
+
+
 def test_a_sound_package_passes() -> None:
     files = foreign_artifacts(open_side(str(CASE)).protocol, "gear_8")
     try_package(files, "gear_8", "gear_8.dbc")
