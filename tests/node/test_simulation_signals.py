@@ -60,34 +60,58 @@ def test_simulated_nodes_that_were_stopped_do_not_drive_on(program: Run) -> None
     assert all(map(is_off, commands(run.heard)[sent:]))
 
 
-def test_a_signal_in_the_middle_of_a_frame_keeps_no_safe_code_back(
-    program: Run,
-) -> None:
-    within = DRIVE.replace(
-        "with Simulation",
-        """
+INTERRUPTED = DRIVE.replace(
+    "with Simulation",
+    """
 from swapcan import decode
 
-class Slow(can.BusABC):
+class Interrupted(can.BusABC):
+    is_on = False
     def __init__(self):
-        self.bus, self.channel_info = open_bus(), "slow"
-        super().__init__(channel="slow")
+        self.bus, self.channel_info = open_bus(), "interrupted"
+        super().__init__(channel="interrupted")
     def _recv_internal(self, timeout):
         return self.bus.recv(timeout), True
     def send(self, msg, timeout=None):
         self.bus.send(msg, timeout)
-        command = decode(msg.arbitration_id, bytes(msg.data))
-        if getattr(command, "hv_on_off", 0) == 1 and not ended.is_set():
+        message = decode(msg.arbitration_id, bytes(msg.data))
+        Interrupted.is_on |= getattr(message, "hv_on_off", 0) == 1
+        if Interrupted.is_on and message.NAME == WITHIN and not ended.is_set():
             ended.set()
-            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(0.06)  # now the next command is due too
+            os.kill(os.getpid(), SIGNAL)
     def shutdown(self):
         super().shutdown()
         self.bus.shutdown()
 
 ended = threading.Event()
 with Simulation""",
-    ).replace("lambda *_: open_bus()", "lambda *_: Slow()")
-    with program(within) as run:
+).replace("lambda *_: open_bus()", "lambda *_: Interrupted()")
+"""A signal comes in the middle of a frame."""
+
+
+def interrupted(within: str, name: str) -> str:
+    return f"WITHIN, SIGNAL = {within!r}, signal.{name}\n{INTERRUPTED}"
+
+
+def test_a_signal_in_the_middle_of_a_frame_keeps_no_safe_code_back(program: Run) -> None:
+    with program(interrupted("V2B_CMD", "SIGTERM")) as run:
         assert run.end() == -signal.SIGTERM
     assert len(commands(run.heard)) > 5
     assert all(map(is_off, commands(run.heard)[-5:]))
+
+
+@pytest.mark.parametrize("within", ["V2B_CMD", "B2V_ST1"])
+def test_what_ctrl_z_interrupts_in_the_middle_of_a_frame_is_not_driven_on(
+    program: Run, within: str
+) -> None:
+    with program(interrupted(within, "SIGTSTP")) as run:
+        _, status = os.waitpid(run.process.pid, os.WUNTRACED)
+        assert os.WIFSTOPPED(status)
+        sent = len(commands(run.hear()))
+        assert all(map(is_off, commands(run.heard)[-5:]))
+        run.process.send_signal(signal.SIGCONT)
+        run.wait_for_line("gone on")
+        run.wait_for_line("drives no more")
+        assert run.end() == 0
+    assert all(map(is_off, commands(run.heard)[sent:]))

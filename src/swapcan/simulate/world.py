@@ -112,6 +112,8 @@ class World:
         self._runs_in = threading.get_ident()
         try:
             self._live(seconds)
+            if self._is_over:
+                raise SendingError(_STOPPED)
         finally:
             self._runs_in = None
             LAST_WORDS.discard(self)
@@ -119,6 +121,9 @@ class World:
     def speak_last(self) -> None:
         """Before a signal ends or stops the process: nothing acts any more."""
         self._is_over = True  # the lock of an event may be held by what the signal interrupted
+        # What the signal interrupted may keep what `go_on` raises, and end its turn.
+        for node in self._nodes:
+            node.sends = "what does not act"
         if self._thread:
             self._thread.join(_PATIENCE)
         self.leave()
@@ -131,6 +136,8 @@ class World:
     def __enter__(self) -> Self:
         self._stop.clear()
         self._is_over = False
+        for node in self._nodes:
+            node.sends = "all"
         self._thread = threading.Thread(target=self._live_apart, name="swapcan-world", daemon=True)
         if not isinstance(self.clock, SimulatedClock):
             LAST_WORDS.add(self)

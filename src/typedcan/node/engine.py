@@ -17,12 +17,12 @@ from typedcan.model.errors import TypedcanError
 from typedcan.node.events import Dispatcher, NodeFailed
 from typedcan.node.inbox import Hearer, Inbox
 from typedcan.node.leaving import Leaving
-from typedcan.node.life import Life
+from typedcan.node.life import Life, wait_for
 from typedcan.node.outbox import Outbox
 from typedcan.node.port import Port
 from typedcan.node.reception import Notice, Reception
 from typedcan.node.request import RequestHearer, Requests
-from typedcan.node.transmit import Transmitter
+from typedcan.node.transmit import Sends, Transmitter
 from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.supervise import Supervisor
 from typedcan.transfer.collect import Transfers
@@ -108,7 +108,7 @@ class Engine:
         """Begin to send and to receive, in two threads."""
         if self._threads:
             raise TypedcanError(f"{self._name} has been started already")
-        _wait_for(self._sender, self.patience)
+        wait_for(self._sender, self.patience)
         if self._sender and self._sender.is_alive():
             raise TypedcanError(f"{self._name} cannot be started: a thread of it still hangs")
         # A new one each time: a thread that stopped its node may not have ended yet.
@@ -161,6 +161,15 @@ class Engine:
         """See `Transmitter.acting`."""
         return self._transmitter.acting
 
+    @property
+    def sends(self) -> Sends:
+        """See `Transmitter.sends`."""
+        return self._transmitter.sends
+
+    @sends.setter
+    def sends(self, sends: Sends) -> None:
+        self._transmitter.sends = sends
+
     def send_safe_codes(self) -> Exception | None:
         """See `Transmitter.send_safe_codes`."""
         return self._transmitter.send_safe_codes()
@@ -187,7 +196,7 @@ class Engine:
                 self._leaving.leave()
             end = time.monotonic() + patience
             for thread in (*self._threads, self._life.stand_in):  # the sender is the first
-                _wait_for(thread, max(end - time.monotonic(), _LEAST))
+                wait_for(thread, max(end - time.monotonic(), _LEAST))
             if self._sender and self._sender.is_alive() and not is_sender:
                 self._life.failed = True  # it may hold what would be needed to send
                 self._leaving.leave_beside()
@@ -284,9 +293,3 @@ class Engine:
             for answer in request.answers:
                 hearers[answer].append(self.requests.hear)
         return dict(hearers)
-
-
-def _wait_for(thread: threading.Thread | None, seconds: float) -> None:
-    # A callback may stop its node; one of the threads may not have been started.
-    if thread and thread is not threading.current_thread() and thread.is_alive():
-        thread.join(seconds)

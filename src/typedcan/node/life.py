@@ -21,3 +21,10 @@ class Life:
         """Whether one of them could not go on, or hangs: nothing more is sent but safe codes."""
         self.stand_in: threading.Thread | None = None
         """The thread that lets time pass while the one that receives hangs."""
+
+
+def wait_for(thread: threading.Thread | None, seconds: float) -> None:
+    """Wait for the end of a thread, at most so long."""
+    # A callback may stop its node; one of the threads may not have been started.
+    if thread and thread is not threading.current_thread() and thread.is_alive():
+        thread.join(seconds)

@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import Self
 
 from typedcan.node.engine import Engine
+from typedcan.node.transmit import Sends
 from typedcan.wire.errors import StillActingError
 from typedcan.wire.message import Message
 
@@ -86,6 +87,15 @@ class Running:
         return self._engine.send_safe_codes()
 
     # Driven by hand
+
+    @property
+    def sends(self) -> Sends:
+        """What is sent: all, what does not act, or nothing; safe codes always are."""
+        return self._engine.sends
+
+    @sends.setter
+    def sends(self, sends: Sends) -> None:
+        self._engine.sends = sends
 
     @property
     def next_due(self) -> float:
