@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dbcspec.load.response import Stream, Time, worst_case_responses
-from typedcan.model.frame_time import frame_bits
 
 MS = Fraction(1, 1000)
 BIT = Fraction(1, 125_000)
@@ -52,15 +51,6 @@ def test_an_overloaded_bus_has_no_bound_for_what_comes_last() -> None:
     assert high.worst == 2 * MS
     assert (low.worst, lowest.worst) == (None, None)
     assert not lowest.in_time
-
-
-def test_the_bits_of_a_frame_are_those_that_the_paper_counts() -> None:
-    # 34 or 54 bits that may be stuffed, 13 that may not; 80 + 10 s at worst for extended frames.
-    assert frame_bits(8, extended=False) == 111
-    assert frame_bits(8, extended=False, stuffed=True) == 135
-    assert frame_bits(8) == 131
-    for length in range(9):
-        assert frame_bits(length, stuffed=True) == 80 + 10 * length
 
 
 class Bus:

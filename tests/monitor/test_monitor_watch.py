@@ -7,7 +7,6 @@ import pytest
 from monitor.monitored import Monitored, frame, row, signal
 
 from swapcan import encode
-from swapcan.monitor.bus_load import frame_bits
 from swapcan.transfer import split_pack_code
 
 
@@ -145,11 +144,13 @@ def test_clearing_counts_anew_and_keeps_what_was_said(monitored: Monitored) -> N
     assert row(monitored.at(0.1), "B2V_ST2").frames == 1
 
 
-def test_frames_have_the_bits_that_iso_11898_gives_them() -> None:
-    # 67 and 47 bits beside the data; of 54 and 34 of them and the data, one in 16 is stuffed.
-    assert frame_bits(can.Message(data=bytes(8))) == 67 + 64 + (54 + 64) / 16
-    assert frame_bits(can.Message(is_extended_id=False)) == 47 + 34 / 16
-    assert frame_bits(can.Message(is_remote_frame=True, dlc=8)) == 67 + 54 / 16
+def test_a_remote_frame_loads_the_bus_without_data(monitored: Monitored) -> None:
+    monitored.hear(
+        can.Message(is_remote_frame=True, dlc=8, arbitration_id=0x1882D0F3, timestamp=0.5),
+        can.Message(is_extended_id=False, arbitration_id=0x123, data=bytes(1), timestamp=0.5),
+    )
+    bits = (67 + 54 / 16) + (47 + 8 + (34 + 8) / 16)
+    assert monitored.at(1.0).totals.load == pytest.approx(bits / 250_000)
 
 
 def test_load_and_rate_are_those_of_the_last_two_seconds(monitored: Monitored) -> None:

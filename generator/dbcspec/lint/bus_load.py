@@ -11,13 +11,10 @@ from collections.abc import Iterator
 
 from dbcspec.lint.rule import Found, Rule, Subject
 from typedcan.model.errors import Location
+from typedcan.model.frame_time import frame_bits
 from typedcan.model.protocol import NOWHERE, Bus, Message, Protocol
 
 _CLASSIC_BYTES = 8
-_STUFFED_BITS = {False: 34, True: 54}
-"""Bits of a frame without data that may be stuffed, for identifiers of 11 and of 29 bits."""
-_FIXED_BITS = 13
-"""CRC delimiter, acknowledgement, end of frame, space between frames."""
 
 
 def _check(subject: Subject) -> Iterator[Found]:
@@ -25,7 +22,7 @@ def _check(subject: Subject) -> Iterator[Found]:
         if bus.bit_rate <= 0:
             continue
         periodic = [each for each in _on(bus, subject.protocol) if each.period]
-        load = sum(100_000 * frame_bits(m) / (m.period or 1) for m in periodic) / bus.bit_rate
+        load = sum(100_000 * _bits(m) / (m.period or 1) for m in periodic) / bus.bit_rate
         most = subject.settings.bus_load
         if load > most:
             text = (
@@ -36,10 +33,8 @@ def _check(subject: Subject) -> Iterator[Found]:
             yield Found(_place(subject, bus), bus.name, text)
 
 
-def frame_bits(message: Message) -> int:
-    """The most bits that a frame of at most 8 bytes takes on the bus, stuff bits included."""
-    stuffed = _STUFFED_BITS[message.extended] + 8 * message.length
-    return stuffed + _FIXED_BITS + (stuffed - 1) // 4
+def _bits(message: Message) -> int:
+    return frame_bits(message.length, extended=message.extended, stuffed=True)
 
 
 def _on(bus: Bus, protocol: Protocol) -> Iterator[Message]:

@@ -7,27 +7,14 @@ from collections import deque
 
 import can
 
+from typedcan.model.frame_time import usual_bits
+
 BITRATE = 250_000
 """Bit/s of the protocol's buses."""
 
 _BUCKET = 0.25
 _BUCKETS = 8
 """The rates are those of the last two seconds, in steps of a quarter."""
-
-# Bits of a frame without data, with the space after it, and those among them that take stuff bits.
-_EXTENDED, _EXTENDED_STUFFED = 67, 54
-_STANDARD, _STANDARD_STUFFED = 47, 34
-_BITS_PER_STUFF_BIT = 16
-"""As in the traffic of the five nodes; it depends on the data, at worst it is 4."""
-
-
-def frame_bits(frame: can.Message) -> float:
-    """About how many bit times a classic frame takes on the bus, stuff bits included."""
-    data = 0 if frame.is_remote_frame else 8 * len(frame.data)
-    bits, stuffed = (
-        (_EXTENDED, _EXTENDED_STUFFED) if frame.is_extended_id else (_STANDARD, _STANDARD_STUFFED)
-    )
-    return bits + data + (stuffed + data) / _BITS_PER_STUFF_BIT
 
 
 class BusLoad:
@@ -55,7 +42,8 @@ class BusLoad:
                 self._buckets.popleft()
         bucket = self._buckets[-1]
         bucket[1] += 1
-        bucket[2] += frame_bits(frame)
+        length = 0 if frame.is_remote_frame else len(frame.data)
+        bucket[2] += usual_bits(length, extended=frame.is_extended_id)
 
     def rates(self, now: float) -> tuple[float, float]:
         """Frames per second, and the estimated share of the time that the bus is busy."""

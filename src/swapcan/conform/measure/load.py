@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.measure.frame_bits import Bits, frame_bits
 from swapcan.conform.measure.traffic import Channel, Traffic
 from typedcan.logs.frames import FrameFlag
+from typedcan.model.frame_time import Bits
 
 BIT_RATE = 250_000
 """Bit/s, 4.2.2."""
@@ -65,7 +65,7 @@ class LoadMeter:
         for kind in np.flatnonzero(counts).tolist():
             place, rest = divmod(kind, 4 * _LENGTHS)
             flags, length = divmod(rest, _LENGTHS)
-            bits = frame_bits(
+            bits = Bits.of(
                 0 if flags & FrameFlag.REMOTE else length, extended=bool(flags & FrameFlag.EXTENDED)
             )
             channel = block.channels[place]
@@ -79,10 +79,10 @@ class LoadMeter:
         own = expected = Bits()
         for message, home in self._traffic.channels.items():
             if home == channel:
-                bits = frame_bits(message.LENGTH, extended=True)
+                bits = Bits.of(message.LENGTH, extended=True)
                 own = own.plus(bits, self._traffic.frames[message])
         for message in self._traffic.always(channel):
-            bits = frame_bits(message.LENGTH, extended=True)
+            bits = Bits.of(message.LENGTH, extended=True)
             expected = expected.plus(bits, self._traffic.rate(message))
         measured = self._bits[channel]
         return Load(

@@ -7,12 +7,12 @@ import numpy as np
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.frame_bits import Bits, frame_bits
 from swapcan.conform.measure.load import BIT_RATE
 from swapcan.conform.measure.traffic import Channel, Traffic
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
+from typedcan.model.frame_time import Bits
 from typedcan.wire.message import Message
 
 _SHARE = Tolerance(
@@ -71,7 +71,7 @@ class BusLoad(Watcher):
     ) -> None:
         sent = expected = once = Bits()
         for message in messages:
-            bits = frame_bits(message.LENGTH, extended=True)
+            bits = Bits.of(message.LENGTH, extended=True)
             sent = sent.plus(bits, self._traffic.frames[message])
             expected = expected.plus(bits, self._traffic.rate(message) * seconds)
             once = once.plus(bits, self._traffic.per_cycle(message))
