@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from dbcspec.cli import command_line
+from dbcspec.cli import PROGRAM
 
 GUIDE = (Path(__file__).parents[2] / "docs" / "ci.md").read_text("utf-8")
 COMMANDS = sorted(
@@ -22,5 +22,5 @@ def test_the_guide_shows_commands() -> None:
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_command_of_the_guide_is_accepted(command: str) -> None:
-    options = command_line().parse_args(shlex.split(command)[1:])
+    options = PROGRAM.parser().parse_args(shlex.split(command)[1:])
     assert callable(options.run)

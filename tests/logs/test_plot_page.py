@@ -13,9 +13,9 @@ import pytest
 from logs.cell_logs import INVALID, Reading, cycle, totals
 from logs.plot_logs import array, curve, data_of, marks, plot, spans, times, write
 
-from swapcan.console import CommandError
 from swapcan.messages import B2V_ST1, B2V_ST2, BmsState
 from typedcan.model.errors import TypedcanError
+from typedcan.shell.console import CommandError
 from typedcan.wire.message import Message
 
 

@@ -9,8 +9,7 @@ from node.rough_bus import ERRORS, MuteError
 
 from swapcan import NodeFailed, ReceiveFailed, SendFailed, StillActingError
 from swapcan.messages import V2B_CMD
-from typedcan.model.errors import TypedcanError
-from typedcan.wire.errors import one_line
+from typedcan.model.errors import TypedcanError, one_line
 
 
 def test_events_have_facts_and_a_line() -> None:

@@ -16,7 +16,7 @@ from dbcspec.read.doors import open_side
 from typedcan.model.protocol import Protocol
 from typedcan.report.formats import FORMATS, render
 from typedcan.report.item import Report
-from typedcan.shell.printing import print_text
+from typedcan.shell.console import say_text
 
 
 class Commands(typing.Protocol):
@@ -65,7 +65,7 @@ def print_report(options: argparse.Namespace, report: Report) -> None:
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     encoding = (sys.stdout.encoding or "ascii").lower().replace("-", "")
     text = render(report, options.format, colour=colour, ascii_only=not encoding.startswith("utf"))
-    print_text(text, coloured=colour)
+    say_text(text, coloured=colour)
 
 
 def source_protocol(options: argparse.Namespace) -> Protocol:

@@ -15,7 +15,8 @@ from dbcspec.read.doors import open_side
 from dbcspec.trial import try_package
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
-from typedcan.shell.printing import print_line, printable_json
+from typedcan.shell.console import say
+from typedcan.shell.printing import printable_json
 
 
 def add(commands: Commands) -> None:
@@ -55,19 +56,17 @@ def _generate(options: argparse.Namespace) -> int:
             try_package(files, config.stubs, f"{config.dbc}/{config.name}.dbc")
     changed = write(root, files)
     if options.json:
-        print_line(
-            printable_json({**_counts(protocol), "digest": protocol.digest, "changed": changed})
-        )
+        say(printable_json({**_counts(protocol), "digest": protocol.digest, "changed": changed}))
         return 0
     counts = _counts(protocol)
-    print_line(
+    say(
         f"{protocol.name}: {counts['messages']} messages, {counts['signals']} signals,"
         f" {counts['value_tables']} value tables, {counts['errata']} errata applied,"
         f" digest {protocol.digest}"
     )
     for name in changed:
-        print_line(f"wrote {name}")
-    print_line(f"{len(files) - len(changed)} of {len(files)} files were current")
+        say(f"wrote {name}")
+    say(f"{len(files) - len(changed)} of {len(files)} files were current")
     return 0
 
 
@@ -91,9 +90,9 @@ def _check(options: argparse.Namespace) -> int:
     stale = verify(project.config.root, files, project.protocol, project.config)
     if options.json:
         found = [{"path": each.path, "why": each.why, "diff": list(each.diff)} for each in stale]
-        print_line(printable_json(found))
+        say(printable_json(found))
         return 1 if stale else 0
     if stale:
         raise StaleArtifactError(*(line for each in stale for line in _stale_lines(each)))
-    print_line(f"{len(files)} files are current, digest {project.protocol.digest}")
+    say(f"{len(files)} files are current, digest {project.protocol.digest}")
     return 0

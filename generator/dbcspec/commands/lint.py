@@ -26,7 +26,8 @@ from typedcan.databases.encoding import read_encoded
 from typedcan.model.errors import ReadError
 from typedcan.report.item import Report
 from typedcan.report.rules import print_rules
-from typedcan.shell.printing import print_remark, print_text
+from typedcan.shell.console import say_text
+from typedcan.shell.printing import print_remark
 
 
 def add(commands: Commands) -> None:
@@ -101,5 +102,5 @@ def _fix(options: argparse.Namespace) -> None:
 
 
 def _rules(options: argparse.Namespace) -> int:
-    print_text(print_rules([*rule_infos(), *PROMISES], options.format))
+    say_text(print_rules([*rule_infos(), *PROMISES], options.format))
     return 0

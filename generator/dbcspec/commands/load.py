@@ -15,7 +15,8 @@ from dbcspec.load.tables import data, text
 from dbcspec.load.traffic import Scenario, Size
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Bus, Protocol
-from typedcan.shell.printing import print_text, printable, printable_json
+from typedcan.shell.console import say_text
+from typedcan.shell.printing import printable, printable_json
 
 _EXAMPLES = """examples:
   dbcspec load --groups 18 --items cell_voltages=216 --items probe_temperatures=108
@@ -70,9 +71,9 @@ def _run(options: argparse.Namespace) -> int:
     if options.plot:
         put_in_place(_pictures(options.plot, loads))
     if options.json:
-        print_text(printable_json([data(load) for load in loads], indent=2))
+        say_text(printable_json([data(load) for load in loads], indent=2))
     else:
-        print_text("\n\n".join("\n".join(map(printable, text(load))) for load in loads))
+        say_text("\n\n".join("\n".join(map(printable, text(load))) for load in loads))
     return 1 if any(load.late for load in loads) else 0
 
 

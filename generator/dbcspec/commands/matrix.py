@@ -23,7 +23,7 @@ from dbcspec.read.matrix import read_matrix
 from dbcspec.write_spec import propose_spec
 from typedcan.model.errors import ReadError
 from typedcan.report.item import Report
-from typedcan.shell.printing import print_line, print_remark
+from typedcan.shell.console import note, say
 
 
 def add(commands: Commands) -> None:
@@ -60,7 +60,7 @@ def _export(options: argparse.Namespace) -> int:
     protocol = source_protocol(options)
     path = options.output or Path(f"{protocol.name}.xlsx")
     put_in_place({path: emit_matrix(protocol)})
-    print_line(f"wrote {path}")
+    say(f"wrote {path}")
     return 0
 
 
@@ -75,9 +75,9 @@ def _import_matrix(options: argparse.Namespace) -> int:
     folder = project.config.root / project.config.spec
     proposal = propose_spec(folder, project.protocol, matrix)
     for name in write(folder, proposal.files):
-        print_line(f"wrote {project.config.spec}/{name}")
+        say(f"wrote {project.config.spec}/{name}")
     for text in proposal.not_written:
-        print_remark(f"dbcspec: not written: {text}")
+        note(f"not written: {text}")
     return 1 if proposal.not_written else 0
 
 
@@ -86,5 +86,5 @@ def _import(options: argparse.Namespace) -> int:
         raise ReadError(f"{options.out}: is not empty; a spec is written into a folder of its own")
     protocol = open_side(options.file, encoding=options.encoding).protocol
     for name in write(options.out, emit_spec(protocol)):
-        print_line(f"wrote {options.out / name}")
+        say(f"wrote {options.out / name}")
     return 0

@@ -9,7 +9,7 @@ from dbcspec.commands.common import Commands, project_option, source_protocol
 from dbcspec.read.doors import open_side
 from dbcspec.show import find_message, show
 from dbcspec.textconv import textconv
-from typedcan.shell.printing import print_text
+from typedcan.shell.console import say_text
 
 
 def add(commands: Commands) -> None:
@@ -31,10 +31,10 @@ def add(commands: Commands) -> None:
 
 def _show(options: argparse.Namespace) -> int:
     protocol = source_protocol(options)
-    print_text(show(protocol, find_message(protocol, options.name)))
+    say_text(show(protocol, find_message(protocol, options.name)))
     return 0
 
 
 def _textconv(options: argparse.Namespace) -> int:
-    print_text(textconv(open_side(options.source, encoding=options.encoding).protocol))
+    say_text(textconv(open_side(options.source, encoding=options.encoding).protocol))
     return 0

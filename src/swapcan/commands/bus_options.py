@@ -9,8 +9,8 @@ from typing import Any
 import can
 from can.interfaces.virtual import VirtualBus
 
-from swapcan.console import CommandError, note
-from typedcan.wire.errors import one_line
+from typedcan.model.errors import one_line
+from typedcan.shell.console import CommandError, note
 
 
 def add_bus_options(parser: argparse.ArgumentParser) -> None:

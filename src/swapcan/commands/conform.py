@@ -10,8 +10,8 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options
 from swapcan.commands.log_options import add_window_options, completing_files, need
-from swapcan.console import Command
 from swapcan.simulate.times import PlanError, seconds_of
+from typedcan.shell.command_line import Command
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -21,9 +21,9 @@ from swapcan.conform.live.announcement import announcement
 from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
-from swapcan.console import CommandError, note, warn
 from swapcan.drive.listening import listen
 from swapcan.monitor.recording import Recording
+from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.shell.progress import StatusLine
 

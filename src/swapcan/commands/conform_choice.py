@@ -11,8 +11,8 @@ from typing import Self
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, Judgement, Rule, judge_log
 from swapcan.conform.live.scenarios import SCENARIOS, scenarios_of
-from swapcan.console import CommandError
 from typedcan.logs.window import Moment
+from typedcan.shell.console import CommandError
 
 PACK = "BMU"
 """Whom scenarios judge."""

@@ -7,7 +7,7 @@ from swapcan.conform import RULES
 from swapcan.conform.live.announcement import announcement
 from swapcan.conform.live.scenarios import SCENARIOS
 from swapcan.conform.text import Language
-from swapcan.console import say
+from typedcan.shell.console import say
 from typedcan.shell.printing import aligned
 
 

@@ -22,7 +22,7 @@ from swapcan.conform.report import (
     to_junit,
 )
 from swapcan.conform.text import Language
-from swapcan.console import CommandError, note, say_text
+from typedcan.shell.console import CommandError, note, say_text
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,9 +12,9 @@ from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_lists import list_rules, list_scenarios, list_tolerances
 from swapcan.commands.conform_reports import Judged, Reports
 from swapcan.conform import Judgement, Severity, Status, Verdict
-from swapcan.console import CommandError, note
 from typedcan.logs.progress import Progress
 from typedcan.logs.window import moment
+from typedcan.shell.console import CommandError, note
 
 CONFORMS, VIOLATES, NOT_JUDGED = 0, 1, 2
 """Exit statuses."""

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from swapcan.console import CommandError, note, say
 from swapcan.log_tables import convert_logs
 from typedcan.logs.cells.arrow import CellTables
 from typedcan.logs.pipeline import Layout, Options
@@ -15,6 +14,7 @@ from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress
 from typedcan.logs.raster import raster_step
 from typedcan.logs.window import moment
+from typedcan.shell.console import CommandError, note, say
 from typedcan.shell.printing import printable_json
 
 DAMAGED = 3

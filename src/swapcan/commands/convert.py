@@ -12,7 +12,8 @@ from swapcan.commands.log_options import (
     completing_files,
     need,
 )
-from swapcan.console import Command, count
+from typedcan.shell.command_line import Command
+from typedcan.shell.console import count
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

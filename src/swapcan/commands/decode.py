@@ -8,7 +8,8 @@ from pathlib import Path
 from swapcan.commands import HELP
 from swapcan.commands.log_file import LogFileError, read_log
 from swapcan.commands.transcript import JSON_HELP, Transcript
-from swapcan.console import Command, CommandError, note
+from typedcan.shell.command_line import Command
+from typedcan.shell.console import CommandError, note
 
 # What shtab calls a file, for the completion of shells.
 _FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}

@@ -11,10 +11,11 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.traffic import Traffic
-from swapcan.console import Command, note, say, seconds
 from swapcan.messages import B2V_ST1, MESSAGES
 from swapcan.simulate import PlannedStep, Simulation
 from swapcan.wire import Link, database
+from typedcan.shell.command_line import Command
+from typedcan.shell.console import note, say, seconds
 from typedcan.wire.errors import ReceiveTimeoutError
 from typedcan.wire.link import Received
 

@@ -8,8 +8,9 @@ import math
 from swapcan.commands import HELP
 from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
 from swapcan.commands.transcript import JSON_HELP, Transcript
-from swapcan.console import Command, OutputClosedError, count, note, seconds
 from swapcan.drive.listening import listen
+from typedcan.shell.command_line import Command
+from typedcan.shell.console import OutputClosedError, count, note, seconds
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -13,8 +13,8 @@ import can
 from can.io.blf import BLFParseError
 from can.io.generic import MessageReader
 
-from swapcan.console import CommandError
-from typedcan.wire.errors import one_line
+from typedcan.model.errors import one_line
+from typedcan.shell.console import CommandError
 
 _DAMAGE = (
     BLFParseError,

@@ -6,7 +6,7 @@ import argparse
 from importlib.util import find_spec
 from pathlib import Path
 
-from swapcan.console import CommandError
+from typedcan.shell.console import CommandError
 
 # What shtab calls a file, for the completion of shells.
 _FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}

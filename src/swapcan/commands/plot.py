@@ -12,7 +12,7 @@ from swapcan.commands.log_options import (
     completing_files,
     need,
 )
-from swapcan.console import Command
+from typedcan.shell.command_line import Command
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

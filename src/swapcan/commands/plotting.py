@@ -6,13 +6,13 @@ import argparse
 import secrets
 from pathlib import Path
 
-from swapcan.console import CommandError, note
 from swapcan.log_protocol import CELLS, OWN, PROBES
 from typedcan.logs.database import protocol_of
 from typedcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
 from typedcan.logs.plot.html import notes
 from typedcan.logs.progress import Progress
 from typedcan.logs.window import Moment, moment
+from typedcan.shell.console import CommandError, note
 
 DAMAGED = 3
 """Exit status where the log is damaged."""

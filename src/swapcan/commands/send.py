@@ -9,10 +9,11 @@ from swapcan.commands.bus_options import add_bus_options, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.transcript import values_text
 from swapcan.commands.values import message_named, message_of
-from swapcan.console import Command, CommandError, note, say
 from swapcan.drive.driving import LOOK_OUT, Driving
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.wire import Link, decode, encode
+from typedcan.shell.command_line import Command
+from typedcan.shell.console import CommandError, note, say
 from typedcan.wire.acting import what_acts
 from typedcan.wire.clock import SystemClock
 

@@ -11,13 +11,13 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands.driving import HUNG, LIVE, acting_nodes, who_acts
 from swapcan.commands.simulation_report import SimulationReport
-from swapcan.console import CommandError, note, warn
 from swapcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
+from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.wire.clock import SystemClock
 

@@ -24,13 +24,13 @@ import json
 from functools import partial
 from typing import Any
 
-from swapcan.console import say
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
 from typedcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
 from typedcan.node.request import Pending
+from typedcan.shell.console import say
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Fault

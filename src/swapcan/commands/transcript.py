@@ -27,9 +27,9 @@ from typing import Any
 
 import can
 
-from swapcan.console import say
 from swapcan.messages import MESSAGES
 from swapcan.wire import Receiver
+from typedcan.shell.console import say
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import LabelledField, Message, SignalState
 

@@ -7,8 +7,8 @@ import inspect
 import re
 from collections.abc import Sequence
 
-from swapcan.console import CommandError
 from swapcan.messages import MESSAGES
+from typedcan.shell.console import CommandError
 from typedcan.wire.message import (
     CharacterField,
     Field,

@@ -12,8 +12,7 @@ import can
 from can.io.generic import MessageWriter
 from can.util import channel2int
 
-from typedcan.model.errors import TypedcanError
-from typedcan.wire.errors import one_line
+from typedcan.model.errors import TypedcanError, one_line
 
 _LATEST = 2.0**32
 """Seconds since 1970 that every format can hold."""

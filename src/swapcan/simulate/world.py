@@ -14,9 +14,10 @@ from typing import Self
 from swapcan.simulate.line import Line
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
+from typedcan.model.errors import one_line
 from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
-from typedcan.wire.errors import SendingError, StillActingError, one_line
+from typedcan.wire.errors import SendingError, StillActingError
 
 STEP = 0.01
 """Seconds from one step of the participants to the next."""

@@ -28,3 +28,22 @@ class TypedcanError(Exception):
 
 class ReadError(TypedcanError):
     """A file or a configuration cannot be used: one line that says which and why."""
+
+
+def one_line(error: BaseException) -> str:
+    """The text of an error and of its cause, in one line."""
+    texts = [_text(error)]
+    if error.__cause__ and _text(error.__cause__) not in texts[0]:
+        texts.append(_text(error.__cause__))
+    return ": ".join(texts)
+
+
+def _text(error: BaseException) -> str:
+    name = type(error).__name__
+    try:
+        text = " ".join(str(error).split())
+    except BaseException:  # noqa: BLE001 - an error of somebody else's that cannot even be shown
+        text = ""
+    # What a driver raises by mistake, such as "list index out of range", says too little alone.
+    wanted = isinstance(error, OSError | ValueError) or type(error).__module__ != "builtins"
+    return f"{name}: {text}" if text and not wanted else text or name

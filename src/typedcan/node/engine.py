@@ -13,7 +13,7 @@ from typing import Literal
 
 import can
 
-from typedcan.model.errors import TypedcanError
+from typedcan.model.errors import TypedcanError, one_line
 from typedcan.node.events import Dispatcher, NodeFailed
 from typedcan.node.inbox import Hearer, Inbox
 from typedcan.node.leaving import Leaving
@@ -29,7 +29,7 @@ from typedcan.transfer.collect import Transfers
 from typedcan.wire.acting import acting_fields
 from typedcan.wire.clock import Clock
 from typedcan.wire.codec import Codec
-from typedcan.wire.errors import SendingError, StillActingError, one_line
+from typedcan.wire.errors import SendingError, StillActingError
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 

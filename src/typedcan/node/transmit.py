@@ -8,12 +8,13 @@ from typing import Literal
 
 import can
 
+from typedcan.model.errors import one_line
 from typedcan.node.events import SendFailed
 from typedcan.node.port import Port
 from typedcan.wire.acting import SentCommands, acts
 from typedcan.wire.clock import Clock
 from typedcan.wire.codec import Codec
-from typedcan.wire.errors import SendingError, one_line
+from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message
 from typedcan.wire.protect import SendCounters
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.read.gunzip import GZIP, BrokenGzip, gunzip
-from typedcan.wire.errors import one_line
+from typedcan.model.errors import one_line
 
 PADDING = 1024
 """Bytes that may be read beyond the end of any line."""

@@ -1,4 +1,4 @@
-"""What all commands share: how they are declared, how they print, and the error of the user's."""
+"""What all commands share: results, remarks, the error of the user's, numbers as arguments."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ import errno
 import math
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
-from typing import NoReturn
 
 from typedcan.model.errors import TypedcanError
 from typedcan.shell.printing import print_line, print_remark, print_text, printable
@@ -24,26 +22,12 @@ class OutputClosedError(BrokenPipeError):
     """Nobody reads the results any more; apart from a bus whose other end is gone."""
 
 
-@dataclass(frozen=True, slots=True)
-class Command:
-    """A command: ``help`` in one line, its examples, its arguments and what it does.
-
-    ``run`` returns the exit status.
-    """
-
-    name: str
-    help: str
-    examples: str
-    add_arguments: Callable[[argparse.ArgumentParser], None]
-    run: Callable[[argparse.Namespace], int]
+_program = ["typedcan"]
 
 
-class Parser(argparse.ArgumentParser):
-    """Reports a wrong argument in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """Raise the message as `CommandError`."""
-        raise CommandError(f"{message}; see {self.prog} --help")
+def name_program(name: str) -> None:
+    """Say what remarks of this process begin with: the name of its command line."""
+    _program[0] = name
 
 
 def say(text: str, *, flush: bool = False) -> None:
@@ -83,13 +67,13 @@ def _writing() -> Iterator[None]:
 
 def note(text: str) -> None:
     """Print a remark or an error, beside the results; where nobody reads it that is no trouble."""
-    print_remark(f"swapcan: {text}")
+    print_remark(f"{_program[0]}: {text}")
 
 
 def warn(text: str) -> None:
     """Print a remark from any thread, also where another hangs in printing one."""
     with suppress(Exception):
-        os.write(sys.stderr.fileno(), f"swapcan: {printable(text)}\n".encode())
+        os.write(sys.stderr.fileno(), f"{_program[0]}: {printable(text)}\n".encode())
 
 
 def seconds(text: str) -> float:
