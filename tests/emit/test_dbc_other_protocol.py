@@ -12,6 +12,7 @@ from emit.dbc_lines import Dbc
 from emit.other_protocol import HELLO, LONG_NAMES, OTHER, WHEELS
 
 from dbcspec.emit.dbc import emit_dbc
+from typedcan.model.canonical import canonical
 from typedcan.model.errors import Location
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Bus, Protocol
@@ -103,3 +104,12 @@ def test_the_digest_changes_with_the_model_but_not_with_a_place_in_the_spec() ->
     others = (LONG_NAMES, HELLO)
     assert dataclasses.replace(OTHER, messages=(moved, *others)).digest == OTHER.digest
     assert dataclasses.replace(OTHER, messages=(faster, *others)).digest != OTHER.digest
+
+
+def test_a_kind_of_fact_that_a_message_has_not_is_no_part_of_its_digest() -> None:
+    silent, periodic = (
+        dataclasses.replace(WHEELS, period=None),
+        dataclasses.replace(WHEELS, period=7),
+    )
+    assert "period" not in canonical(silent)
+    assert "period=7" in canonical(periodic)

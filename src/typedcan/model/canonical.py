@@ -10,12 +10,16 @@ from typedcan.model.numbers import number
 
 
 def canonical(value: object) -> str:
-    """A model or a part of it as text, without what does not count in comparisons."""
+    """A model or a part of it as text, without what does not count in comparisons.
+
+    Facts that have their default are left out: a kind of fact that a later version knows besides
+    changes no text, and no digest, of a protocol that has none of it.
+    """
     if is_dataclass(value):
         inner = ",".join(
-            f"{part.name}={canonical(getattr(value, part.name))}"
+            f"{part.name}={canonical(fact)}"
             for part in fields(value)
-            if part.compare
+            if part.compare and (fact := getattr(value, part.name)) != part.default
         )
         return f"{type(value).__name__}({inner})"
     if isinstance(value, tuple):
