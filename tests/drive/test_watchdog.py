@@ -18,9 +18,9 @@ from swapcan.drive import driving, watchdog
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.drive.watchdog import HungError, Watchdog
 from swapcan.messages import V2B_CMD, BmsState, HvCommand
-from swapcan.monitor.recording import Recording
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.world import World
+from typedcan.shell.recording import Recording
 from typedcan.wire.clock import SimulatedClock, SystemClock
 
 ENOUGH = 20.0

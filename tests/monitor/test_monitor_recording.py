@@ -13,7 +13,7 @@ import can
 import pytest
 from monitor.monitored import Monitored, frame
 
-from swapcan.monitor.recording import RecordingError, free_name
+from typedcan.shell.recording import RecordingError, free_name
 
 
 def recorded(path: Path) -> list[tuple[int, bytes]]:

@@ -22,10 +22,10 @@ from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
 from swapcan.drive.listening import listen
-from swapcan.monitor.recording import Recording
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.shell.progress import StatusLine
+from typedcan.shell.recording import Recording
 
 _DURATION = 60.0
 """Seconds to listen where nothing else is said."""

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import can
 
 from swapcan.monitor.picture import Picture
-from swapcan.monitor.recording import Recording, RecordingError
 from swapcan.monitor.watch import Watch, WatchEvent
 from typedcan.node.events import BusBack, BusLost
+from typedcan.shell.recording import Recording, RecordingError
 from typedcan.wire.clock import Clock
 from typedcan.wire.link import Fault
 

@@ -12,12 +12,12 @@ from textual.binding import Binding, BindingType
 from textual.widgets import ContentSwitcher, DataTable, Static
 
 from swapcan.monitor.picture import Picture
-from swapcan.monitor.recording import RecordingError, free_name
 from swapcan.monitor.session import Session
 from swapcan.monitor.view.help import HelpScreen
 from swapcan.monitor.view.panes import MessagesPane, PackPane, SignalsPane, Where
 from swapcan.monitor.view.prompt import Prompt
 from swapcan.monitor.view.status import Shown, panes_line, status_line
+from typedcan.shell.recording import RecordingError, free_name
 
 INTERRUPTED = 130
 """The exit status after Ctrl-C."""

@@ -9,7 +9,7 @@ from pathlib import Path
 import can
 import pytest
 
-from swapcan.monitor.recording import Recording, RecordingError
+from typedcan.shell.recording import Recording, RecordingError
 
 SUFFIXES = (".asc", ".blf", ".csv", ".db", ".log", ".trc")
 IMPOSSIBLE = (math.inf, -math.inf, math.nan, -1.0, -1e300, 1e300, 2.0**32)

@@ -7,7 +7,7 @@ from pathlib import Path
 import can
 import pytest
 
-from swapcan.monitor.recording import Recording
+from typedcan.shell.recording import Recording
 
 NAME = "adapter-827551260"
 
