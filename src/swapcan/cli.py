@@ -9,6 +9,14 @@ from swapcan.commands import HELP
 from typedcan.shell import command_line
 from typedcan.shell.command_line import Parser, Program, Subcommands
 
+_FOR_ANY_PROTOCOL = {
+    "convert": "typedcan",
+    "decode": "typedcan",
+    "listen": "swapcan",
+    "plot": "typedcan",
+    "send": "swapcan",
+}
+
 _EXAMPLES = """examples:
   swapcan demo                                        a pack and a truck on a virtual bus
   swapcan decode drive.blf                            the messages in a log
@@ -30,7 +38,12 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _add(commands: Subcommands[Parser], name: str) -> None:
-    import_module(f"swapcan.commands.{name}").COMMAND.add(commands)
+    if name in _FOR_ANY_PROTOCOL:
+        from swapcan.commands.tool import TOOL
+
+        import_module(f"{_FOR_ANY_PROTOCOL[name]}.commands.{name}").command(TOOL).add(commands)
+    else:
+        import_module(f"swapcan.commands.{name}").COMMAND.add(commands)
 
 
 PROGRAM = Program(

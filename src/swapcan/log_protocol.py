@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.transfer.readings import TABLES
 from typedcan.logs.protocol import known
 
-OWN = known(
-    PROTOCOL.model,
-    {"cell_voltages": ("cells", "cell"), "probe_temperatures": ("probes", "probe")},
-)
+OWN = known(PROTOCOL.model, TABLES)
 """All that is known of it; its tables of readings are called ``cells`` and ``probes``."""
 
 CELLS, PROBES = OWN.readings

@@ -15,9 +15,9 @@ from conform.live_lines import line
 from conform.recorded import recorded, written
 
 from swapcan import cli
-from swapcan.commands import log_options
 from swapcan.conform import RULES
 from swapcan.messages import B2V_ST1
+from typedcan.commands import log_options
 
 SECONDS = 4.0
 

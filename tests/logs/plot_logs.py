@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import swapcan
-from swapcan.commands.plot import COMMAND
+from swapcan.commands.tool import TOOL
+from typedcan.commands.plot import command
 from typedcan.wire.message import Message
 
 START = 1_700_000_000.0
@@ -39,8 +40,9 @@ def write(path: Path, sent: Iterable[tuple[float, Message]]) -> Path:
 def plot(*arguments: object) -> int:
     """Run the command; gives the exit status, raises what the command line would print."""
     parser = argparse.ArgumentParser()
-    COMMAND.add_arguments(parser)
-    return COMMAND.run(parser.parse_args([str(each) for each in arguments]))
+    plotting = command(TOOL)
+    plotting.add_arguments(parser)
+    return plotting.run(parser.parse_args([str(each) for each in arguments]))
 
 
 def data_of(page: Path) -> dict[str, Any]:

@@ -19,9 +19,9 @@ from logs.table_logs import START, traffic, write_frames
 
 import swapcan
 from swapcan import cli
-from swapcan.commands import log_options
 from swapcan.logs import tables
 from swapcan.messages import B2V_ST1, B2V_ST2, MESSAGES
+from typedcan.commands import log_options
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress

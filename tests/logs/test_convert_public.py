@@ -37,7 +37,7 @@ def test_the_command_line_starts_without_what_is_an_extra() -> None:
     program = (
         "import sys\n"
         "sys.modules['asammdf'] = None  # python-can imports it where it is installed\n"
-        "import swapcan.cli, swapcan.commands.convert, swapcan.logs\n"
+        "import swapcan.cli, typedcan.commands.convert, swapcan.logs\n"
         "print({'numpy', 'pyarrow', 'pandas'} & {n for n in sys.modules})"
     )
     done = subprocess.run(

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from swapcan.commands.bus_options import add_bus_options
-from swapcan.commands.log_options import add_window_options, completing_files, need
 from swapcan.simulate.times import PlanError, seconds_of
+from typedcan.commands.bus_options import add_bus_options
+from typedcan.commands.log_options import add_window_options, need
+from typedcan.commands.tool import completing_files
 from typedcan.shell.command_line import Command
 
 

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import can
 
-from swapcan.commands.bus_options import bus_name, open_bus, told_once
 from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_reports import Judged
 from swapcan.commands.driving import HUNG, LIVE
@@ -22,6 +21,7 @@ from swapcan.conform.live.scenario import Scenario
 from swapcan.conform.live.scenarios import scenarios_of
 from swapcan.conform.live.stage import LEAVING, Left, Stage
 from swapcan.drive.listening import listen
+from typedcan.commands.bus_options import bus_name, open_bus, told_once
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.shell.progress import StatusLine

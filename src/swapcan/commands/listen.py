@@ -1,27 +1,34 @@
-"""`swapcan listen`: the messages on a bus, as they arrive."""
+"""`listen`: the messages on a bus, as they arrive."""
 
 from __future__ import annotations
 
 import argparse
 import math
+from functools import partial
 
-from swapcan.commands import HELP
-from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
-from swapcan.commands.transcript import JSON_HELP, Transcript
 from swapcan.drive.listening import listen
+from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
+from typedcan.commands.tool import Tool, add_dbc_option
+from typedcan.commands.transcript import JSON_HELP, Transcript
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import OutputClosedError, count, note, seconds
 
 
+def command(tool: Tool) -> Command:
+    """The command of a command line."""
+    return tool.command("listen", _add_arguments, partial(_run, tool))
+
+
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_dbc_option(parser)
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
     parser.add_argument("--count", type=count, default=math.inf, help="end after so many messages")
     add_bus_options(parser)
 
 
-def _run(options: argparse.Namespace) -> int:
-    transcript = Transcript(as_json=options.json, live=True)
+def _run(tool: Tool, options: argparse.Namespace) -> int:
+    transcript = Transcript(tool.codec(options), as_json=options.json, live=True)
     with open_bus(options) as bus:
         note(f"listening on {bus_name(bus, options)}, Ctrl-C ends")
         try:
@@ -39,14 +46,3 @@ def _run(options: argparse.Namespace) -> int:
             raise
     note(transcript.summary())
     return 0
-
-
-COMMAND = Command(
-    name="listen",
-    help=HELP["listen"],
-    examples="""  swapcan listen -i socketcan -c can0
-  swapcan listen -i pcan -c PCAN_USBBUS1 -b 250000 --json --seconds 10
-  swapcan listen -i udp_multicast -c 239.74.163.2 --count 1""",
-    add_arguments=_add_arguments,
-    run=_run,
-)

@@ -16,12 +16,12 @@ from types import FrameType
 import can
 
 from swapcan.commands import HELP
-from swapcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from swapcan.commands.monitor_lines import MonitorLines
 from swapcan.monitor.bus_load import BITRATE
 from swapcan.monitor.listener import Listener
 from swapcan.monitor.session import Recorded, Session
 from swapcan.monitor.watch import Watch
+from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from typedcan.model.errors import one_line
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, count, note, seconds

@@ -40,11 +40,11 @@ import json
 from collections import Counter
 from typing import Any
 
-from swapcan.commands.transcript import json_object
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.rows import MessageRow, Seen
 from swapcan.monitor.session import Session, SessionEvent, Status
 from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Vin
+from typedcan.commands.transcript import json_object
 from typedcan.shell.console import say
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.link import Fault

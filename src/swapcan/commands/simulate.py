@@ -10,13 +10,19 @@ from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from swapcan.commands.bus_options import add_bus_options, assignment, bus_name, is_virtual, open_bus
 from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
 from swapcan.simulate.faults import FAULTS, able_nodes, planned_fault
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.simulate.simulation import check
 from swapcan.simulate.times import PlanError
+from typedcan.commands.bus_options import (
+    add_bus_options,
+    assignment,
+    bus_name,
+    is_virtual,
+    open_bus,
+)
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import say, seconds
 from typedcan.shell.printing import aligned

@@ -13,6 +13,9 @@ from typedcan.wire.protocol import Transfer
 CELL_VOLTAGES = PROTOCOL.transfer("cell_voltages")
 PROBE_TEMPERATURES = PROTOCOL.transfer("probe_temperatures")
 
+TABLES = {"cell_voltages": ("cells", "cell"), "probe_temperatures": ("probes", "probe")}
+"""What the tables of transfers, and one reading, are called in columns."""
+
 
 class CellVoltages(Readings):
     """The voltage of every cell, in V."""

@@ -108,6 +108,11 @@ def read_any(
     return to_protocol(database, name, places, labels or Labels())
 
 
+def read_database(path: Path) -> Protocol:
+    """Read a file of any format: a name that ends in none of `FORMATS` is that of a DBC file."""
+    return (read_any if path.suffix.lower() in FORMATS else read_dbc)(path)
+
+
 _END = "BS_:\n"
 """A statement that means nothing: before the end of a file cantools forgives half a statement."""
 

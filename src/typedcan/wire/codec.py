@@ -34,11 +34,11 @@ class Codec:
         self, protocol: Protocol, algorithms: Mapping[str, Algorithm] | None = None
     ) -> None:
         self._algorithms = MappingProxyType({**STANDARD_ALGORITHMS, **(algorithms or {})})
-        self._protocol = protocol
+        self.protocol = protocol
 
     @cached_property
     def _database(self) -> Database:
-        return database(self._protocol)
+        return database(self.protocol)
 
     @cached_property
     def readers(self) -> Mapping[int, Reader]:

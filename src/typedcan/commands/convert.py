@@ -1,19 +1,20 @@
-"""`swapcan convert`: log files to tables."""
+"""`convert`: log files to tables."""
 
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from pathlib import Path
 
-from swapcan.commands import HELP
-from swapcan.commands.log_options import (
-    add_dbc_option,
-    add_window_options,
-    completing_files,
-    need,
-)
+from typedcan.commands.log_options import add_window_options, need
+from typedcan.commands.tool import Tool, add_dbc_option, completing_files
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import count
+
+
+def command(tool: Tool) -> Command:
+    """The command of a command line."""
+    return tool.command("convert", _add_arguments, partial(_run, tool))
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,7 +35,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
             "the suffix says which kind: .parquet, .arrow, .feather, .csv or .mf4. One table is "
             "that file; tables of several messages go into a folder, OUT without its suffix, as "
             "one file each. .mf4 holds all tables. Without a suffix: a folder of Parquet files. "
-            "Where everything is converted, the cells and probes of a pack come as columns too"
+            "Where everything is converted, readings that come over several frames are columns too"
         ),
     )
     completing_files(logs, output)
@@ -53,7 +54,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
 def _add_choice(parser: argparse.ArgumentParser) -> None:
     for name, text in (
         ("--messages", "these messages only"),
-        ("--signals", "these signals only; SOC means every signal that ends in _SOC"),
+        ("--signals", "these signals only; Speed means every signal that ends in _Speed"),
     ):
         parser.add_argument(
             name, help=text, type=_names, action="extend", default=[], metavar="NAME,..."
@@ -78,23 +79,8 @@ def _names(text: str) -> list[str]:
     return [name for name in text.split(",") if name]
 
 
-def _run(options: argparse.Namespace) -> int:
+def _run(tool: Tool, options: argparse.Namespace) -> int:
     need("numpy", "pyarrow")
-    from swapcan.commands.conversion import run
+    from typedcan.commands.conversion import run
 
-    return run(options)
-
-
-COMMAND = Command(
-    name="convert",
-    help=HELP["convert"],
-    examples="""  swapcan convert drive.blf -o drive.parquet    # drive/B2V_ST2.parquet and others
-  swapcan convert drive.blf -o st2.csv --messages B2V_ST2
-  swapcan convert day-*.asc -o day.parquet --raster 100ms --signals SOC,Current
-  swapcan convert drive.blf -o drive.mf4 --from 60 --to 120
-
-exit status: 0 all is well, 2 the command could not do its work, 3 a log is damaged: what comes
-before the damage is written, 130 interrupted: nothing is written""",
-    add_arguments=_add_arguments,
-    run=_run,
-)
+    return run(tool, options)

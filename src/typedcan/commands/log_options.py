@@ -1,28 +1,11 @@
-"""The options that the commands for whole logs share, and the check for their extra."""
+"""The options that the commands for whole logs share, their protocol, and the check for extras."""
 
 from __future__ import annotations
 
 import argparse
 from importlib.util import find_spec
-from pathlib import Path
 
 from typedcan.shell.console import CommandError
-
-# What shtab calls a file, for the completion of shells.
-_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
-
-
-def completing_files(*arguments: argparse.Action) -> None:
-    """Let the shell complete these by the names of files."""
-    for each in arguments:
-        vars(each)["complete"] = _FILE
-
-
-def add_dbc_option(parser: argparse.ArgumentParser) -> None:
-    """Add --dbc."""
-    completing_files(
-        parser.add_argument("--dbc", type=Path, metavar="FILE", help="decode by this DBC file")
-    )
 
 
 def add_window_options(parser: argparse.ArgumentParser) -> None:

@@ -2,9 +2,9 @@
 
 A decoded frame in JSON, one object a line:
 
-    {"timestamp": 1.5, "channel": 0, "id": 411226355, "message": "B2V_ST1",
-     "signals": {"B2V_ST1_BMS": {"value": 2, "label": "HV closed"}, "B2V_ST1_ALIV": null, ...},
-     "states": {"B2V_ST1_ALIV": "Signal Invalid"},
+    {"timestamp": 1.5, "channel": 0, "id": 201, "message": "Motor_Status",
+     "signals": {"Motor_State": {"value": 2, "label": "Running"}, "Motor_Alive": null, ...},
+     "states": {"Motor_Alive": "Signal Invalid"},
      "faults": [{"kind": "counter", "text": "counter is Signal Invalid, it runs 0 to 14"}]}
 
 Signals have their DBC names. A physical value or a count is a number, in the unit of the DBC; a
@@ -13,7 +13,7 @@ its code where that is no character. A signal that says invalid or abnormal inst
 null, and ``states`` says which. A frame of a known message with a wrong length or checksum has
 no signals but its bytes and what is wrong:
 
-    {"timestamp": 1.6, "channel": 0, "id": 411226355, "message": "B2V_ST1", "data": "00FF...",
+    {"timestamp": 1.6, "channel": 0, "id": 201, "message": "Motor_Status", "data": "00FF...",
      "fault": {"kind": "checksum", "text": "checksum is 0x00, the bytes make 0xFF"}}
 
 Frames of other protocols are counted only.
@@ -27,11 +27,11 @@ from typing import Any
 
 import can
 
-from swapcan.messages import MESSAGES
-from swapcan.wire import Receiver
 from typedcan.shell.console import say
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import LabelledField, Message, SignalState
+from typedcan.wire.receiver import Receiver
 
 JSON_HELP = (
     "print one JSON object a line: timestamp, channel, id, message, and signals, states, faults,"
@@ -39,21 +39,23 @@ JSON_HELP = (
 )
 """For the option of the commands that print such lines."""
 
-_NAME_WIDTH = max(len(kind.NAME) for kind in MESSAGES)
-
 
 class Transcript:
     """Prints frames as they come, and counts them.
 
     Parameters
     ----------
+    codec
+        Whose messages are shown.
     as_json
         Whether the lines are JSON.
     live
         Whether each line is to be seen at once, also through a pipe.
     """
 
-    def __init__(self, *, as_json: bool, live: bool = False) -> None:
+    def __init__(self, codec: Codec, *, as_json: bool, live: bool = False) -> None:
+        self._codec = codec
+        self._width = max((len(each.NAME) for each in codec.protocol.messages), default=0)
         self._as_json = as_json
         self._live = live
         # Alive counters run per bus, and a log can have several.
@@ -63,14 +65,19 @@ class Transcript:
 
     def show(self, frame: can.Message) -> None:
         """Print one frame, unless it is none of the protocol's."""
-        taken = self._receivers.setdefault(frame.channel, Receiver()).take(frame)
+        taken = self._receiver(frame.channel).take(frame)
         if taken is None:
             if not frame.is_error_frame:
                 self._unknown.add((frame.arbitration_id, frame.is_extended_id))
             return
         self.messages += isinstance(taken, Received)
-        line = json_line(taken) if self._as_json else text_line(taken)
+        line = json_line(taken) if self._as_json else text_line(taken, self._width)
         say(line, flush=self._live)
+
+    def _receiver(self, channel: object) -> Receiver:
+        if channel not in self._receivers:
+            self._receivers[channel] = Receiver(self._codec)
+        return self._receivers[channel]
 
     def summary(self) -> str:
         """How many frames there were, and what became of them."""
@@ -88,12 +95,12 @@ class Transcript:
         )
 
 
-def text_line(taken: Received | Fault) -> str:
-    """A message with its values, or the fault, for people."""
+def text_line(taken: Received | Fault, width: int = 0) -> str:
+    """A message with its values, or the fault, for people; names take so many characters."""
     frame = taken.frame
     channel = "-" if frame.channel is None else frame.channel
     name = taken.message.NAME if isinstance(taken, Received) else taken.message
-    start = f"{frame.timestamp:17.6f}  {channel}  {name:<{_NAME_WIDTH}}"
+    start = f"{frame.timestamp:17.6f}  {channel}  {name:<{width}}"
     if isinstance(taken, Fault):
         return f"{start}  ! {taken.text}  [{frame.data.hex(' ').upper()}]"
     faults = (f"! {fault.text}" for fault in taken.faults)

@@ -30,7 +30,7 @@ def add_bus_options(parser: argparse.ArgumentParser) -> None:
         help="one of python-can's, such as socketcan, pcan, vector, udp_multicast",
     )
     group.add_argument("-c", "--channel", help="such as can0, PCAN_USBBUS1, 0")
-    group.add_argument("-b", "--bitrate", type=int, help="in bit/s; the protocol has 250000")
+    group.add_argument("-b", "--bitrate", type=int, help="in bit/s, such as 250000")
     group.add_argument(
         "--bus-kwargs",
         nargs="+",

@@ -7,7 +7,6 @@ import inspect
 import re
 from collections.abc import Sequence
 
-from swapcan.messages import MESSAGES
 from typedcan.shell.console import CommandError
 from typedcan.wire.message import (
     CharacterField,
@@ -24,13 +23,13 @@ from typedcan.wire.plain import shown
 _STATES = {"invalid": SignalState.INVALID, "abnormal": SignalState.ABNORMAL}
 
 
-def message_named(name: str) -> type[Message]:
+def message_named(messages: Sequence[type[Message]], name: str) -> type[Message]:
     """The message class of a name in any case; raises `CommandError`."""
-    by_name = {kind.NAME.casefold(): kind for kind in MESSAGES}
+    by_name = {kind.NAME.casefold(): kind for kind in messages}
     if kind := by_name.get(name.casefold()):
         return kind
     raise CommandError(
-        _unknown(f"there is no message {shown(name)}", name, [kind.NAME for kind in MESSAGES])
+        _unknown(f"there is no message {shown(name)}", name, [kind.NAME for kind in messages])
     )
 
 

@@ -1,4 +1,4 @@
-"""The work of `swapcan plot`, which needs the extra ``logs``."""
+"""The work of `plot`, which needs the extra ``logs``."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ import argparse
 import secrets
 from pathlib import Path
 
-from swapcan.log_protocol import CELLS, OWN, PROBES
-from typedcan.logs.database import protocol_of
+from typedcan.commands.log_protocol import log_protocol
+from typedcan.commands.tool import Tool
+from typedcan.logs.grouped import Readings
 from typedcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
 from typedcan.logs.plot.html import notes
 from typedcan.logs.progress import Progress
+from typedcan.logs.protocol import Protocol
 from typedcan.logs.window import Moment, moment
 from typedcan.shell.console import CommandError, note
+from typedcan.wire.plain import shown
 
 DAMAGED = 3
 """Exit status where the log is damaged."""
@@ -23,11 +26,11 @@ _MOST = 200
 _SUFFIXES = (".html", ".png")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(tool: Tool, options: argparse.Namespace) -> int:
     """Read the log, write the plot, say what there was to say; gives the exit status."""
     output: Path = options.output
     _check(output, force=options.force)
-    request = _request(options)
+    request = _request(options, log_protocol(tool, options))
     progress = Progress(_size(options.log))
     try:
         plot = read_plot(options.log, request, progress.update)
@@ -49,20 +52,28 @@ def run(options: argparse.Namespace) -> int:
     return status
 
 
-def _request(options: argparse.Namespace) -> PlotRequest:
-    if not (options.signals or options.cells or options.probes):
-        raise CommandError("say what to draw: --signals NAME,..., --cells or --probes")
-    protocol = protocol_of(options.dbc, OWN)
+def _request(options: argparse.Namespace, protocol: Protocol) -> PlotRequest:
+    if not (options.signals or options.readings):
+        known = "".join(f" or --readings {each.name}" for each in protocol.readings)
+        raise CommandError(f"say what to draw: --signals NAME,...{known}")
     signals = find_signals(protocol, options.signals)
     if len(signals) > _MOST:
         raise CommandError(f"that is {len(signals)} signals; a plot has at most {_MOST}")
     return PlotRequest(
         protocol,
         signals,
-        [*([CELLS] if options.cells else []), *([PROBES] if options.probes else [])],
+        [_readings(protocol, name) for name in dict.fromkeys(options.readings)],
         start=_moment(options.start),
         end=_moment(options.end),
     )
+
+
+def _readings(protocol: Protocol, name: str) -> Readings:
+    for each in protocol.readings:
+        if each.name == name:
+            return each
+    known = ", ".join(each.name for each in protocol.readings) or "none"
+    raise CommandError(f"there are no readings {shown(name)}; known: {known}")
 
 
 def _moment(text: str | None) -> Moment | None:

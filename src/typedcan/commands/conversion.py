@@ -1,4 +1,4 @@
-"""What `swapcan convert` does; apart from its arguments, since it imports what is an extra."""
+"""What `convert` does; apart from its arguments, since it imports what is an extra."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from swapcan.log_tables import convert_logs
+from typedcan.commands.log_protocol import log_protocol
+from typedcan.commands.tool import Tool, dbc_of
 from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.convert import convert_logs
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress
@@ -21,15 +23,17 @@ DAMAGED = 3
 """Exit status: a log is damaged; what comes before the damage was converted."""
 
 
-def run(given: argparse.Namespace) -> int:
+def run(tool: Tool, given: argparse.Namespace) -> int:
     """Convert, print the summary, and return the exit status."""
     chosen = _options(given)
+    protocol = log_protocol(tool, given)
     progress = Progress(_size(given.logs))
     try:
         target, summary = convert_logs(
             given.logs,
             given.output,
             chosen,
+            own=protocol,
             jobs=given.jobs,
             force=given.force,
             watch=progress.update,
@@ -57,7 +61,6 @@ def _size(logs: Sequence[Path]) -> int:
 
 def _options(given: argparse.Namespace) -> Options:
     options = Options(
-        dbc=given.dbc,
         messages=tuple(given.messages),
         signals=tuple(given.signals),
         start=None if given.start is None else moment(given.start),
@@ -68,8 +71,8 @@ def _options(given: argparse.Namespace) -> Options:
     )
     if given.raster is not None:
         return replace(options, layout=Layout.RASTER, step=raster_step(given.raster))
-    selected = given.dbc or given.messages or given.signals
+    selected = dbc_of(given) or given.messages or given.signals
     if not selected and options.mode is Mode.PHYSICAL and options.layout is Layout.MESSAGES:
-        # All there is of the own protocol: cells and probes as columns of their own too.
+        # All there is of the own protocol: readings over several frames as columns too.
         return replace(options, derived=(CellTables,))
     return options

@@ -1,0 +1,1 @@
+"""The commands for any protocol, one file each, imported when it is chosen."""

@@ -1,0 +1,117 @@
+"""What a command line hands to its commands: its name, its protocol, and its own words."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from typedcan.model import protocol as model
+from typedcan.shell.command_line import Command
+from typedcan.shell.console import CommandError
+from typedcan.wire.codec import Codec
+from typedcan.wire.dynamic import typed_protocol
+from typedcan.wire.protocol import Protocol
+
+# What shtab calls a file, for the completion of shells.
+_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tool:
+    """What is particular to a command line.
+
+    Parameters
+    ----------
+    program
+        Its name.
+    own
+        Gives the protocol that it is for, or the options name; None where they name a database
+        alone. Is called once options are there: ``--help`` needs no protocol.
+    help, examples
+        What each command does, in a line, and examples of it.
+    tables
+        By name of a transfer, what the table of its readings and one reading are called.
+    """
+
+    program: str
+    own: Callable[[argparse.Namespace], Protocol | None]
+    help: Mapping[str, str]
+    examples: Mapping[str, str]
+    tables: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+
+    def command(
+        self,
+        name: str,
+        add_arguments: Callable[[argparse.ArgumentParser], None],
+        run: Callable[[argparse.Namespace], int],
+    ) -> Command:
+        """A command with the words that stand here."""
+        return Command(name, self.help[name], self.examples.get(name, ""), add_arguments, run)
+
+    def protocol(self, options: argparse.Namespace) -> Protocol:
+        """The protocol that the options choose, with its message classes.
+
+        That of the database where one is given: one made from the own protocol says the same in
+        other words, such as Chinese labels, and all else that is known of it counts too.
+        """
+        own = self.own(options)
+        path = dbc_of(options)
+        if path is None:
+            if own is None:
+                raise CommandError("say which protocol: a package of it, or --dbc FILE")
+            return own
+        from typedcan.databases.dbc import read_database
+
+        found = read_database(path)
+        if own and found.made_from == own.digest:
+            return typed_protocol(_in_words_of(found, own.model))
+        return typed_protocol(found)
+
+    def codec(self, options: argparse.Namespace) -> Codec:
+        """What encodes and decodes the messages of that protocol."""
+        return Codec(self.protocol(options))
+
+
+def dbc_of(options: argparse.Namespace) -> Path | None:
+    """The database that the options name."""
+    path: Path | None = getattr(options, "dbc", None)
+    return path
+
+
+def completing_files(*arguments: argparse.Action) -> None:
+    """Let the shell complete these by the names of files."""
+    for each in arguments:
+        vars(each)["complete"] = _FILE
+
+
+def add_dbc_option(parser: argparse._ActionsContainer) -> None:
+    """Add --dbc."""
+    completing_files(
+        parser.add_argument(
+            "--dbc",
+            type=Path,
+            # One that stands before the command is not to be forgotten.
+            default=argparse.SUPPRESS,
+            metavar="FILE",
+            help="go by this database: .dbc, .kcd, .sym or .arxml",
+        )
+    )
+
+
+def _in_words_of(found: model.Protocol, own: model.Protocol) -> model.Protocol:
+    """The own protocol, with labels and units as a database of it has them."""
+    words = {(message.name, signal.name): signal for message, signal in found.signals()}
+
+    def reworded(message: model.Message, signal: model.Signal) -> model.Signal:
+        other = words.get((message.name, signal.name))
+        if other is None:
+            return signal
+        return replace(signal, unit=other.unit, value_table=other.value_table)
+
+    messages = tuple(
+        replace(message, signals=tuple(reworded(message, each) for each in message.signals))
+        for message in own.messages
+    )
+    return replace(own, messages=messages, value_tables=found.value_tables)
