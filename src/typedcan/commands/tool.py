@@ -60,7 +60,7 @@ class Tool:
         path = dbc_of(options)
         if path is None:
             if own is None:
-                raise CommandError("say which protocol: a package of it, or --dbc FILE")
+                raise CommandError("say which protocol: --protocol PACKAGE or --dbc FILE")
             return own
         from typedcan.databases.dbc import read_database
 

@@ -152,7 +152,7 @@ def run(
     Whatever stops a command is one line on stderr, and 2; ``failed`` is asked first, and may say
     it in its own way, and another status.
     """
-    name_program(program.name)
+    name_program(program.name.split()[-1])
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a narrow code page shows ? instead

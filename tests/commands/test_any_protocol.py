@@ -1,0 +1,139 @@
+"""`python -m typedcan` for protocols of others, with the package `swapcan` not importable."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+
+import typedcan
+
+FIXTURES = Path(__file__).parent.parent / "fixtures"
+PACK = FIXTURES / "logs" / "pack.log"
+TYPEDCAN = (
+    "import sys; sys.modules['swapcan'] = None; sys.modules['dbcspec'] = None\n"
+    "from typedcan.__main__ import main; sys.exit(main())"
+)
+DBCSPEC = (
+    "import sys; sys.modules['swapcan'] = None\n"
+    "from dbcspec.cli import run; sys.exit(run(sys.argv[1:]))"
+)
+
+
+def run(
+    *arguments: object, program: str = TYPEDCAN, folder: Path | None = None, status: int = 0
+) -> subprocess.CompletedProcess[str]:
+    source = Path(typedcan.__file__).parents[1]
+    paths = [str(source), str(source.parent / "generator")]
+    done = subprocess.run(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONUTF8": "1"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == status, done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a package that `dbcspec generate` wrote."""
+    folder = tmp_path_factory.mktemp("generated")
+    database = FIXTURES / "logs" / "pack_utf8.dbc"
+    run("generate", "--from", database, "--out", "trucks", program=DBCSPEC, folder=folder)
+    return folder
+
+
+@pytest.mark.parametrize("database", ["pack_utf8.dbc", "pack_gbk.dbc"])
+def test_decode_shows_the_units_and_labels_of_a_database_in_any_encoding(database: str) -> None:
+    done = run("--dbc", FIXTURES / "logs" / database, "decode", PACK)
+    first, second = done.stdout.splitlines()
+    assert first.split("  ")[-5:] == [
+        "Pack",
+        "temp=80 ℃",
+        "insul=1000 kΩ",
+        "mode=充电",
+        "curr=-10 A",
+    ]
+    assert "mode=放电" in second
+    assert done.stderr.startswith("typedcan: frames 2, decoded 2, unknown 0")
+
+
+def test_the_database_may_stand_after_the_command_too() -> None:
+    done = run("decode", "--dbc", FIXTURES / "logs" / "pack_gbk.dbc", PACK, "--json")
+    first = json.loads(done.stdout.splitlines()[0])
+    assert (first["id"], first["message"]) == (0x100, "Pack")
+    assert first["signals"]["Mode"] == {"value": 1, "label": "充电"}
+
+
+def test_convert_writes_the_tables_of_a_database(tmp_path: Path) -> None:
+    output = tmp_path / "pack.parquet"
+    run("--dbc", FIXTURES / "logs" / "pack_gbk.dbc", "convert", PACK, "-o", output)
+    table = pq.read_table(output)
+    assert table.column("Temp").to_pylist() == [80, 81]
+    assert table.schema.field("Temp").metadata[b"unit"].decode() == "℃"
+
+
+def test_plot_draws_signals_of_a_database(tmp_path: Path) -> None:
+    output = tmp_path / "pack.html"
+    done = run("--dbc", FIXTURES / "logs" / "pack_utf8.dbc", "plot", PACK, "--signals", "Temp",
+               "-o", output)  # fmt: skip
+    assert "signals 1" in done.stderr
+    assert "℃" in output.read_text("utf-8")
+
+
+def test_a_generated_package_serves_by_its_name_and_by_its_folder(generated: Path) -> None:
+    package = next(generated.rglob("protocol.json")).parent
+    name = ".".join(package.relative_to(generated).parts)
+    by_database = run("--dbc", FIXTURES / "logs" / "pack_utf8.dbc", "decode", PACK).stdout
+    # A name is found as Python finds it; the program given with -c has the folder it runs in.
+    for protocol in (name, package):
+        done = run("--protocol", protocol, "decode", PACK, folder=generated)
+        assert done.stdout == by_database
+
+
+@pytest.mark.parametrize(
+    ("options", "problem"),
+    [
+        ((), "say which protocol: --protocol PACKAGE or --dbc FILE"),
+        (("--dbc", "missing.dbc"), "missing.dbc: there is no such file"),
+        (("--protocol", "nowhere.found"), "--protocol nowhere.found: cannot be imported: "),
+        (("--protocol", "no/folder"), "--protocol 'no/folder': no package that "),
+        (("--protocol", "json"), "--protocol json: cannot be imported: "),
+    ],
+)
+def test_what_cannot_be_used_as_a_protocol_is_one_line(
+    options: tuple[str, ...], problem: str, tmp_path: Path
+) -> None:
+    done = run(*options, "decode", PACK, folder=tmp_path, status=2)
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"typedcan: {problem}")
+    assert done.stderr.count("\n") == 1
+
+
+def test_the_code_of_a_package_that_fails_is_one_line(tmp_path: Path) -> None:
+    for name, code in (("bad", "1 / 0"), ("empty", ""), ("other", "PROTOCOL = 1")):
+        (tmp_path / "all" / name).mkdir(parents=True)
+        (tmp_path / "all" / name / "protocol.py").write_text(code)
+        done = run("--protocol", f"all.{name}", "decode", PACK, folder=tmp_path, status=2)
+        assert done.stderr.startswith(f"typedcan: --protocol all.{name}: ")
+        assert done.stderr.count("\n") == 1
+    (tmp_path / "damaged").mkdir()
+    (tmp_path / "damaged" / "protocol.json").write_text("{}")
+    done = run("--protocol", "./damaged", "decode", PACK, folder=tmp_path, status=2)
+    assert "damaged/protocol.json" in done.stderr.replace("\\", "/")
+    assert done.stderr.count("\n") == 1
+
+
+def test_help_needs_no_protocol_and_has_examples() -> None:
+    for command in ("", "decode", "convert", "plot"):
+        done = run(*filter(None, [command]), "--help")
+        assert "examples:\n  python -m typedcan " in done.stdout
