@@ -10,6 +10,8 @@ import can
 import cantools
 from cantools.database.can import Database
 
+from swapcan import PROTOCOL
+from swapcan.monitor.look import PackGlance, PackLook
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.rows import MessageRow, SignalRow
 from swapcan.monitor.session import Session
@@ -47,7 +49,7 @@ class Monitored:
 
     def __init__(self) -> None:
         self.clock = SimulatedClock()
-        self.session = Session(Watch(0.0), self.clock)
+        self.session = Session(Watch(0.0, PROTOCOL, glance=PackGlance()), self.clock)
 
     def hear(self, *frames: can.Message) -> None:
         """Let the session hear frames at the times of their timestamps."""
@@ -59,6 +61,12 @@ class Monitored:
         """What the session knows at that time."""
         self.clock.advance_to(seconds)
         return self.session.picture()
+
+
+def look(picture: Picture) -> PackLook:
+    """What is shown of the pack."""
+    assert isinstance(picture.look, PackLook)
+    return picture.look
 
 
 def row(picture: Picture, name: str) -> MessageRow:

@@ -13,6 +13,7 @@ import pytest
 from can.interfaces.virtual import VirtualBus
 from monitor.monitored import frame
 
+from swapcan import PROTOCOL
 from swapcan.monitor.listener import Listener
 from swapcan.monitor.session import Session
 from swapcan.monitor.watch import Watch
@@ -41,7 +42,7 @@ class Breakable(VirtualBus):
 
 def new_session() -> Session:
     clock = SystemClock()
-    return Session(Watch(clock.now()), clock)
+    return Session(Watch(clock.now(), PROTOCOL), clock)
 
 
 def test_every_frame_of_a_burst_is_counted_and_recorded(tmp_path: Path) -> None:

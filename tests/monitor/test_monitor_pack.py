@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import can
 import pytest
-from monitor.monitored import Monitored, frame
+from monitor.monitored import Monitored, frame, look
 
 
 def ucell(csc: int, number: int, at: float, *millivolts: int) -> can.Message:
@@ -20,10 +20,11 @@ def totals(at: float, cscs: int, cells: int) -> can.Message:
 
 
 def test_nothing_is_known_before_anything_came(monitored: Monitored) -> None:
-    pack = monitored.at(0.0).pack
+    shown = look(monitored.at(0.0))
+    pack = shown.pack
     items = [item for section in pack.sections for item in section.items]
     assert {(item.text, item.value, item.mark) for item in items} == {("", None, "")}
-    assert pack.alarms == ()
+    assert shown.alarms == ()
 
 
 def test_values_come_with_unit_and_label(monitored: Monitored) -> None:
@@ -34,7 +35,7 @@ def test_values_come_with_unit_and_label(monitored: Monitored) -> None:
         frame("B2V_ST3", 0.0, Upack_Batt=600, Upack_Out=599.5),
         frame("B2V_ST4", 0.0, Max_Temp=35, MaxTemp_CSCNo=3, MaxTemp_Position=2),
     )
-    pack = monitored.at(0.05).pack
+    pack = look(monitored.at(0.05)).pack
     texts = {
         "soc": "76.4 %",
         "main_positive": "Closed",
@@ -53,7 +54,7 @@ def test_values_come_with_unit_and_label(monitored: Monitored) -> None:
 
 def test_an_invalid_value_is_marked_and_gives_no_power(monitored: Monitored) -> None:
     monitored.hear(frame("B2V_ST2", 0.0, SOC=102), frame("B2V_ST3", 0.0, Upack_Batt=6553.5))
-    pack = monitored.at(0.0).pack
+    pack = look(monitored.at(0.0)).pack
     soc = pack.item("soc")
     assert (soc.text, soc.value, soc.mark) == ("Signal Invalid", None, "invalid")
     assert pack.item("power").text == ""
@@ -61,9 +62,9 @@ def test_an_invalid_value_is_marked_and_gives_no_power(monitored: Monitored) -> 
 
 def test_a_value_is_not_to_be_relied_on_once_its_message_is_lost(monitored: Monitored) -> None:
     monitored.hear(frame("B2V_ST2", 0.0, SOC=80))
-    assert monitored.at(0.1).pack.item("soc").mark == ""
-    assert monitored.at(0.2).pack.item("soc").mark == "late"
-    lost = monitored.at(1.0).pack.item("soc")
+    assert look(monitored.at(0.1)).pack.item("soc").mark == ""
+    assert look(monitored.at(0.2)).pack.item("soc").mark == "late"
+    lost = look(monitored.at(1.0)).pack.item("soc")
     assert (lost.text, lost.mark) == ("80 %", "lost")
 
 
@@ -72,20 +73,21 @@ def test_alarms_of_all_nodes_are_listed_while_they_last(monitored: Monitored) ->
         frame("B2V_ST1", 1.0, Fault_Levl=2, Flt_OverTemp=2),
         frame("B2V_ST0", 1.0, Flt_MainPosRelayWeld=1),
     )
-    pack = monitored.at(3.0).pack
-    listed = [(alarm.signal, alarm.text, alarm.age) for alarm in pack.alarms]
+    shown = look(monitored.at(3.0))
+    pack = shown.pack
+    listed = [(alarm.signal, alarm.text, alarm.age) for alarm in shown.alarms]
     assert sorted(listed) == [
         ("B2V_ST0_Flt_MainPosRelayWeld", "Fault", 2.0),
         ("B2V_ST1_Flt_OverTemp", "Level 2-More severe fault", 2.0),
     ]
     assert pack.item("fault_level").text == "Level 2-More severe fault"
     monitored.hear(frame("B2V_ST1", 3.1, ALIV=1))
-    assert [alarm.message for alarm in monitored.at(3.1).pack.alarms] == ["B2V_ST0"]
+    assert [alarm.message for alarm in monitored.at(3.1).alarms] == ["B2V_ST0"]
 
 
 def test_single_frames_make_a_partial_map(monitored: Monitored) -> None:
     monitored.hear(ucell(1, 2, 0.0, 3300, 3310, 3320))
-    cells = monitored.at(0.0).cells
+    cells = look(monitored.at(0.0)).cells
     assert cells.groups == {1: (None, None, None, *map(pytest.approx, (3.3, 3.31, 3.32)))}
     assert (cells.received, cells.total, cells.is_complete) == (3, None, False)
 
@@ -101,16 +103,16 @@ def test_a_complete_set_tells_cells_from_fill(monitored: Monitored) -> None:
             ucell(2, 1, at, 3290, 3306, 3307),
             ucell(2, 2, at, invalid, invalid, invalid),
         )
-    cells = monitored.at(0.5).cells
+    cells = look(monitored.at(0.5)).cells
     assert [len(group) for group in cells.groups.values()] == [4, 4]
     assert str(cells.groups[2][3]) == "Signal Invalid"
     assert (cells.received, cells.total, cells.is_complete) == (8, 8, True)
     assert cells.lowest == pytest.approx((2, 1, 3.29))
     assert cells.highest == pytest.approx((2, 3, 3.307))
-    assert not monitored.at(2.0).cells.is_complete
+    assert not look(monitored.at(2.0)).cells.is_complete
 
 
 def test_another_pack_begins_with_an_empty_map(monitored: Monitored) -> None:
     monitored.hear(totals(0.0, 1, 3), ucell(1, 1, 0.0, 3300, 3300, 3300), totals(0.1, 1, 6))
-    cells = monitored.at(0.1).cells
+    cells = look(monitored.at(0.1)).cells
     assert (cells.groups, cells.total) == ({}, 6)

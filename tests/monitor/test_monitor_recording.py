@@ -110,6 +110,6 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(
 
 
 def test_the_next_free_name_is_proposed(tmp_path: Path) -> None:
-    assert free_name(tmp_path).name == "swapcan-1.blf"
+    assert free_name(tmp_path, "swapcan").name == "swapcan-1.blf"
     (tmp_path / "swapcan-1.blf").touch()
-    assert free_name(tmp_path).name == "swapcan-2.blf"
+    assert free_name(tmp_path, "swapcan").name == "swapcan-2.blf"

@@ -25,7 +25,7 @@ def show(
     monitored: Monitored, steps: Steps, size: tuple[int, int] = (100, 30), bus: str = "test bus"
 ) -> int | None:
     """Show a session, do the steps, and return the exit status if the view was left."""
-    app = MonitorApp(monitored.session, bus)
+    app = MonitorApp(monitored.session, bus, record_name="swapcan")
 
     async def run() -> None:
         async with app.run_test(size=size) as pilot:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import can
 import pytest
-from monitor.monitored import Monitored, frame, row, signal
+from monitor.monitored import Monitored, frame, look, row, signal
 
 from swapcan import encode
 from swapcan.transfer import split_pack_code
@@ -122,10 +122,10 @@ def test_vin_and_pack_code_are_shown_once_complete(monitored: Monitored) -> None
         monitored.hear(
             can.Message(arbitration_id=0x18E1F3D0, data=bytes([number, *letters.encode()]))
         )
-    assert monitored.at(0.0).vin == vin
+    assert look(monitored.at(0.0)).vin == vin
     for part in split_pack_code(code) * 2:
         monitored.hear(can.Message(arbitration_id=part.FRAME_ID, data=encode(part)))
-    assert monitored.at(0.0).pack_code == code
+    assert look(monitored.at(0.0)).pack_code == code
 
 
 def test_clearing_counts_anew_and_keeps_what_was_said(monitored: Monitored) -> None:

@@ -15,10 +15,11 @@ from types import FrameType
 
 import can
 
+from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.monitor_lines import MonitorLines
-from swapcan.monitor.bus_load import BITRATE
 from swapcan.monitor.listener import Listener
+from swapcan.monitor.look import glance_of
 from swapcan.monitor.session import Recorded, Session
 from swapcan.monitor.watch import Watch
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus
@@ -70,7 +71,9 @@ def _run(options: argparse.Namespace) -> int:
             stack.enter_context(_ending_in_order())
             bus = stack.enter_context(open_bus(options))
             clock = SystemClock()
-            watch = Watch(clock.now(), bitrate=options.bitrate or BITRATE)
+            watch = Watch(
+                clock.now(), PROTOCOL, glance=glance_of(PROTOCOL), bitrate=options.bitrate
+            )
             session = Session(watch, clock)
             stack.callback(session.stop_recording)
             if options.record:
@@ -111,7 +114,7 @@ def _view() -> Show:
             "the view needs textual: pip install 'swapcan[monitor]'; --plain prints lines"
         ) from None
     return lambda options, session, bus, is_over: run_view(
-        session, bus, name_filter=options.filter, is_over=is_over
+        session, bus, name_filter=options.filter, record_name="swapcan", is_over=is_over
     )
 
 

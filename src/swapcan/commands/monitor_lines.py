@@ -43,13 +43,10 @@ from typing import Any
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.rows import MessageRow, Seen
 from swapcan.monitor.session import Session, SessionEvent, Status
-from swapcan.transfer import CellVoltages, PackCode, ProbeTemperatures, Vin
 from typedcan.commands.transcript import json_object
 from typedcan.shell.console import say
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.link import Fault
-
-_ITEMS = ("soc", "voltage_inside", "current", "hv_state", "fault_level")
 
 
 class MonitorLines:
@@ -107,11 +104,7 @@ class MonitorLines:
         if isinstance(event, StateChanged | NotSeen | SignalChanged):
             is_told = not isinstance(event, SignalChanged) or event.kind != "invalid"
             return str(event) if is_told and self._matches(event.message.NAME, str(event)) else ""
-        if isinstance(event, CellVoltages | ProbeTemperatures):
-            return ""
-        if isinstance(event, Vin):
-            return f"VIN {event}"
-        return f"pack code {event}" if isinstance(event, PackCode) else str(event)
+        return str(event)
 
     def _matches(self, message: str, text: str) -> bool:
         return message in self._names or self._filter.lower() in text.lower()
@@ -123,22 +116,18 @@ def _summary(picture: Picture, status: Status, rows: list[MessageRow]) -> str:
     parts = [
         f"{totals.frames} frames",
         f"{totals.frames_per_second:.0f}/s",
-        f"load about {100 * totals.load:.0f} %",
+        *([] if totals.load is None else [f"load about {100 * totals.load:.0f} %"]),
         *(f"{states[state]} {state}" for state in ("alive", "late", "lost") if states[state]),
     ]
     counts = (
         (totals.faults, "faults"),
         (len(picture.foreign), "foreign identifiers"),
         (totals.errors, "error frames"),
-        (len(picture.pack.alarms), "alarms"),
+        (len(picture.alarms), "alarms"),
     )
     parts += [f"{count} {what}" for count, what in counts if count]
-    items = (picture.pack.item(key) for key in _ITEMS)
-    parts += [
-        f"{item.label} {item.text}{f' ({item.mark})' if item.mark else ''}"
-        for item in items
-        if item.text
-    ]
+    if picture.look:
+        parts += picture.look.summary()
     if status.bus_lost:
         parts.append(f"bus lost: {status.bus_lost}")
     return ", ".join(parts)

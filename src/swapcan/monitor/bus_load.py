@@ -9,9 +9,6 @@ import can
 
 from typedcan.model.frame_time import usual_bits
 
-BITRATE = 250_000
-"""Bit/s of the protocol's buses."""
-
 _BUCKET = 0.25
 _BUCKETS = 8
 """The rates are those of the last two seconds, in steps of a quarter."""
@@ -25,10 +22,10 @@ class BusLoad:
     now
         When counting begins.
     bitrate
-        Of the bus, in bit/s.
+        Of the bus, in bit/s; None where it is not known.
     """
 
-    def __init__(self, now: float, bitrate: float = BITRATE) -> None:
+    def __init__(self, now: float, bitrate: float | None) -> None:
         self._began = now
         self._bitrate = bitrate
         self._buckets: deque[list[float]] = deque()  # number of the bucket, frames, bits
@@ -45,13 +42,16 @@ class BusLoad:
         length = 0 if frame.is_remote_frame else len(frame.data)
         bucket[2] += usual_bits(length, extended=frame.is_extended_id)
 
-    def rates(self, now: float) -> tuple[float, float]:
-        """Frames per second, and the estimated share of the time that the bus is busy."""
+    def rates(self, now: float) -> tuple[float, float | None]:
+        """Frames per second, and the estimated share of the time that the bus is busy.
+
+        The share is None where the bit rate is not known.
+        """
         first = now // _BUCKET - _BUCKETS + 1
         span = now - max(first * _BUCKET, self._began)
         if not span > 0:
-            return 0.0, 0.0
+            return 0.0, None if self._bitrate is None else 0.0
         counted = [bucket for bucket in self._buckets if bucket[0] >= first]
         frames = math.fsum(bucket[1] for bucket in counted)
         bits = math.fsum(bucket[2] for bucket in counted)
-        return frames / span, bits / span / self._bitrate
+        return frames / span, None if self._bitrate is None else bits / span / self._bitrate

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from swapcan.messages import B2V_BattInfo2, B2V_Ucell
 from swapcan.transfer import CellVoltages, Reading
 from typedcan.wire.message import SignalState
 
@@ -99,14 +98,14 @@ class Cells:
         self._counts: Mapping[int, int] | None = None
         self._told: int | None = None
 
-    def take(self, message: B2V_Ucell, at: float) -> None:
-        """Take a frame that came at ``at`` seconds."""
+    def take(self, message: Any, at: float) -> None:
+        """Take a B2V_Ucell, of whatever class, that came at ``at`` seconds."""
         if isinstance(message.csc_no, int) and message.csc_no > 0 and message.frame_no > 0:
             readings = (message.csc_no_ucell_n, message.csc_no_ucell_n1, message.csc_no_ucell_n2)
             self._pieces[message.csc_no, message.frame_no] = _Piece(readings, at)
 
-    def take_totals(self, message: B2V_BattInfo2) -> None:
-        """Take how many cells there are; another number means another pack."""
+    def take_totals(self, message: Any) -> None:
+        """Take how many cells there are by a B2V_BattInfo2; another number means another pack."""
         if message.tot_cell_num != self._told:
             self._counts = None
             self._pieces.clear()

@@ -41,7 +41,7 @@ class Listener:
         self._session = session
         self._port = Port(bus, session.clock, session.tell_bus, reopen=reopen)
         self._stopping = threading.Event()
-        self._thread = ThreadPoolExecutor(1, "swapcan-monitor")
+        self._thread = ThreadPoolExecutor(1, "monitor")
         self._done: Future[None] = Future()
 
     @property

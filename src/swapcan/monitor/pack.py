@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from swapcan.messages import (
@@ -17,6 +17,7 @@ from swapcan.messages import (
     V2B_CMD,
     B2V_BattInfo1,
 )
+from swapcan.monitor.glance import Known
 from swapcan.monitor.rows import LATE, LOST, Seen, mark_of
 from typedcan.wire.message import LabelledField, Message, Value
 from typedcan.wire.protocol import Protocol
@@ -56,25 +57,10 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Alarm:
-    """A signal that says something is wrong with the pack, the truck or the charger.
-
-    ``text`` is the label of its code, ``age`` the seconds for which it has said so.
-    """
-
-    message: str
-    signal: str
-    title: str
-    text: str
-    age: float
-
-
-@dataclass(frozen=True, slots=True)
 class Pack:
-    """The pack at one moment; ``alarms`` are those that are active, of all nodes."""
+    """The pack at one moment."""
 
     sections: tuple[Section, ...]
-    alarms: tuple[Alarm, ...]
 
     def item(self, key: str) -> Item:
         """The item of that key; raises `LookupError`."""
@@ -88,10 +74,7 @@ class Pack:
         """The same as JSON has it, items by key."""
         items = [item for section in self.sections for item in section.items]
         shown = ("text", "value", "unit", "mark")
-        return {
-            "items": {item.key: {name: getattr(item, name) for name in shown} for item in items},
-            "alarms": [asdict(alarm) for alarm in self.alarms],
-        }
+        return {item.key: {name: getattr(item, name) for name in shown} for item in items}
 
 
 class _Line(NamedTuple):
@@ -105,10 +88,10 @@ class _Line(NamedTuple):
 
 
 class _Facts(NamedTuple):
-    """What items are made from; ``states`` are those of messages by their names."""
+    """What items are made from, by names of messages: the protocol may have classes of its own."""
 
     protocol: Protocol
-    last: Mapping[type[Message], Seen]
+    seen: Mapping[str, Seen]
     states: Mapping[str, str]
 
 
@@ -177,26 +160,35 @@ _SECTIONS: Mapping[str, tuple[_Source, ...]] = {
 }
 
 
-def sections(
-    protocol: Protocol, last: Mapping[type[Message], Seen], states: Mapping[str, str]
-) -> Iterator[Section]:
-    """What the last messages say; ``states`` are those of messages by name."""
-    facts = _Facts(protocol, last, states)
-    for title, sources in _SECTIONS.items():
-        items = (_item(facts, one) if isinstance(one, _Line) else one(facts) for one in sources)
-        yield Section(title, tuple(items))
+def pack_of(protocol: Protocol, known: Known) -> Pack:
+    """What the last messages say of the pack."""
+    seen = {kind.NAME: each for kind, each in known.last.items()}
+    facts = _Facts(protocol, seen, known.states)
+    return Pack(
+        tuple(
+            Section(
+                title,
+                tuple(
+                    _item(facts, source) if isinstance(source, _Line) else source(facts)
+                    for source in sources
+                ),
+            )
+            for title, sources in _SECTIONS.items()
+        )
+    )
 
 
 def _item(facts: _Facts, line: _Line) -> Item:
     value = _value(facts, line.message, line.field)
     if value is None:
         return Item(line.key, line.label, "")
-    field = line.message.FIELDS[line.field]
+    kind = facts.seen[line.message.NAME].received.kind
+    field = kind.FIELDS[line.field]
     text = field.text(value)
     places = [_value(facts, line.message, place) for place in line.places]
     if len(places) == 2 and all(isinstance(place, int) for place in places):
         text += f", CSC {places[0]} no. {places[1]}"
-    wrong = mark_of(facts.protocol, line.message, line.field, value)
+    wrong = mark_of(facts.protocol, kind, line.field, value)
     number = value if isinstance(value, int | float) else None
     if isinstance(field, LabelledField) and number is not None:
         number = int(number)
@@ -208,7 +200,7 @@ def _item(facts: _Facts, line: _Line) -> Item:
 
 
 def _value(facts: _Facts, kind: type[Message], field: str) -> Value:
-    seen = facts.last.get(kind)
+    seen = facts.seen.get(kind.NAME)
     value: Value = getattr(seen.received.message, field) if seen else None
     return value
 
@@ -216,8 +208,3 @@ def _value(facts: _Facts, kind: type[Message], field: str) -> Value:
 def _silence(facts: _Facts, kind: type[Message]) -> str:
     state = facts.states.get(kind.NAME, "")
     return state if state in (LATE, LOST) else ""
-
-
-def is_alarm_level(message: str, field: str) -> bool:
-    """Whether a signal only sums up what others say, so that it is no alarm of its own."""
-    return message == B2V_ST1.NAME and field == "fault_levl"

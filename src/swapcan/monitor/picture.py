@@ -6,9 +6,15 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from swapcan.monitor.cells import CellMap
-from swapcan.monitor.pack import Pack
-from swapcan.monitor.rows import MessageRow, Seen, SignalRow, signal_rows
+from swapcan.monitor.glance import Look
+from swapcan.monitor.rows import (
+    Alarm,
+    MessageRow,
+    Seen,
+    SignalRow,
+    identifier_text,
+    signal_rows,
+)
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
@@ -31,7 +37,8 @@ class Totals:
     foreign, errors
         Frames of other protocols, and error frames.
     frames_per_second, load
-        Over the last two seconds; the load is an estimate, a share of 1.
+        Over the last two seconds; the load is an estimate, a share of 1, and None where the bit
+        rate of the bus is not known.
     """
 
     seconds: float
@@ -43,7 +50,7 @@ class Totals:
     foreign: int
     errors: int
     frames_per_second: float
-    load: float
+    load: float | None
 
     @property
     def faults(self) -> int:
@@ -61,25 +68,23 @@ class ForeignRow:
     age: float
 
     def __str__(self) -> str:
-        return f"0x{self.frame_id:08X}" if self.is_extended else f"0x{self.frame_id:03X}"
+        return identifier_text(self.frame_id, is_extended=self.is_extended)
 
 
 @dataclass(frozen=True, slots=True)
 class Picture:
     """What a `Watch` knows at ``time``, in seconds of its clock.
 
-    ``messages`` has all of the protocol, in its order. ``vin`` and ``pack_code`` are the last that
-    were complete, empty where none was.
+    ``messages`` has all of the protocol, in its order, ``alarms`` those that are active, of all
+    nodes; ``look`` is what the protocol's glance shows, None where it has none.
     """
 
     time: float
     protocol: Protocol
     totals: Totals
     messages: tuple[MessageRow, ...]
-    pack: Pack
-    cells: CellMap
-    vin: str
-    pack_code: str
+    alarms: tuple[Alarm, ...]
+    look: Look | None
     foreign: tuple[ForeignRow, ...]
     last: Mapping[type[Message], Seen]
 
@@ -90,10 +95,10 @@ class Picture:
 
     def as_dict(self) -> dict[str, Any]:
         """The same as JSON has it, without the signals."""
+        alarms = {"alarms": [asdict(alarm) for alarm in self.alarms]}
         return {
             "totals": {**asdict(self.totals), "faults": self.totals.faults},
             "messages": [row.as_dict() for row in self.messages],
-            "pack": {"vin": self.vin, "pack_code": self.pack_code, **self.pack.as_dict()},
-            "cells": self.cells.as_dict(),
+            **(self.look.as_dict() if self.look else alarms),
             "foreign": [asdict(row) for row in self.foreign],
         }

@@ -36,15 +36,15 @@ class MessageRow:
 
     Parameters
     ----------
-    name, frame_id, sender, receivers
-        What the standard says of it.
+    name, frame_id, is_extended, sender, receivers
+        What the protocol says of it; the identifier has 29 bits or 11.
     state
         "alive", "late" or "lost" of what has to come always; "ended" of what comes while a
         condition holds, and no longer does; "seen" of what comes on events; or "never seen".
     frames, age
         How many frames were taken, and how long ago the last one was.
     period, mean, jitter, worst
-        The standard's period, and mean, standard deviation and longest of those measured.
+        The protocol's period, and mean, standard deviation and longest of those measured.
     faults
         How many frames had a wrong length, checksum or counter.
     wrong
@@ -53,6 +53,7 @@ class MessageRow:
 
     name: str
     frame_id: int
+    is_extended: bool
     sender: str
     receivers: tuple[str, ...]
     state: str
@@ -70,35 +71,43 @@ class MessageRow:
         """All faults together."""
         return sum(self.faults.values())
 
+    @property
+    def identifier(self) -> str:
+        """The identifier, as people write it."""
+        return identifier_text(self.frame_id, is_extended=self.is_extended)
+
     def as_dict(self) -> dict[str, Any]:
         """The same as JSON has it."""
         return {**asdict(self), "receivers": list(self.receivers)}
 
     def matches(self, text: str) -> bool:
         """Whether name, identifier, a node or the state has this text, in whatever case."""
-        words = (self.name, f"0x{self.frame_id:08X}", self.sender, *self.receivers, self.state)
+        words = (self.name, self.identifier, self.sender, *self.receivers, self.state)
         return any(text.lower() in word.lower() for word in words)
 
 
-def message_row(
-    kind: type[Message], known: MessageSnapshot | None, protocol: Protocol
-) -> MessageRow:
+def identifier_text(frame_id: int, *, is_extended: bool) -> str:
+    """An identifier of 29 bits or 11, told apart by the number of digits."""
+    return f"0x{frame_id:08X}" if is_extended else f"0x{frame_id:03X}"
+
+
+def message_row(kind: type[Message], known: MessageSnapshot, protocol: Protocol) -> MessageRow:
     """The row of a message of which supervision knows this."""
-    stats = known.period if known else None
     return MessageRow(
         name=kind.NAME,
         frame_id=kind.FRAME_ID,
+        is_extended=kind.EXTENDED,
         sender=kind.SENDER,
         receivers=kind.RECEIVERS,
-        state=_state(kind, known, protocol) if known else NEVER_SEEN,
-        frames=known.frames if known else 0,
-        age=known.age if known else None,
+        state=_state(kind, known, protocol),
+        frames=known.frames,
+        age=known.age,
         period=kind.PERIOD,
-        mean=stats.mean if stats else None,
-        jitter=stats.jitter if stats else None,
-        worst=stats.worst if stats else None,
-        faults=known.faults if known else {},
-        wrong=len(known.signals) if known else 0,
+        mean=known.period.mean,
+        jitter=known.period.jitter,
+        worst=known.period.worst,
+        faults=known.faults,
+        wrong=len(known.signals),
     )
 
 
@@ -109,6 +118,20 @@ def _state(kind: type[Message], known: MessageSnapshot, protocol: Protocol) -> s
         if kind in protocol.conditional and known.age > _ENDED_PERIODS * kind.PERIOD:
             return ENDED
     return str(known.state)
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """A signal that says something is wrong.
+
+    ``text`` is the label of its code, ``age`` the seconds for which it has said so.
+    """
+
+    message: str
+    signal: str
+    title: str
+    text: str
+    age: float
 
 
 @dataclass(frozen=True, slots=True)

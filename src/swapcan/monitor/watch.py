@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.messages import B2V_BattInfo2, B2V_Ucell
-from swapcan.monitor.bus_load import BITRATE, BusLoad
-from swapcan.monitor.cells import Cells
-from swapcan.monitor.pack import Alarm, Pack, is_alarm_level, sections
+from swapcan.monitor.bus_load import BusLoad
+from swapcan.monitor.glance import Glance, Known, Noticed
 from swapcan.monitor.picture import ForeignRow, Picture, Totals
-from swapcan.monitor.rows import Seen, message_row
-from swapcan.transfer import CellVoltages, Outcome, PackCode, Transfers, Vin
-from swapcan.wire import Codec, Receiver
+from swapcan.monitor.rows import Alarm, Seen, message_row
 from typedcan.supervise import SupervisionEvent, Supervisor
-from typedcan.supervise.snapshot import Snapshot
+from typedcan.supervise.snapshot import MessageSnapshot
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
-from typedcan.wire.protocol import Protocol
+from typedcan.wire.protocol import FieldRef, Protocol
+from typedcan.wire.receiver import Receiver
 
-WatchEvent = SupervisionEvent | Outcome
+WatchEvent = SupervisionEvent | Noticed
 """What a frame, or time alone, can bring about."""
 
 _FOREIGN = 1000
@@ -40,36 +38,31 @@ class Watch:
         When watching begins.
     protocol, codec
         Whose messages, and what decodes them.
+    glance
+        What else is shown of this protocol, None where nothing is.
     bitrate
-        Of the bus, for the estimate of its load.
+        Of the bus, for the estimate of its load; without it that of all buses of the protocol.
     """
 
     def __init__(
         self,
         now: float,
+        protocol: Protocol,
         *,
-        protocol: Protocol = PROTOCOL,
         codec: Codec | None = None,
-        bitrate: float = BITRATE,
+        glance: Glance | None = None,
+        bitrate: float | None = None,
     ) -> None:
         self.protocol = protocol
-        self._bitrate = bitrate
-        self._receiver = Receiver(codec or Codec(protocol=protocol))
+        self._glance = glance
+        self._bitrate = bitrate or _bitrate_of(protocol)
+        self._receiver = Receiver(codec or Codec(protocol))
         self._last: dict[type[Message], Seen] = {}
-        self._transfers = Transfers(protocol)
-        self._cells = Cells()
-        self._vin = ""
-        self._pack_code = ""
         self.clear(now)
 
     def clear(self, now: float) -> None:
         """Count and measure anew from now on; what the messages said last is kept."""
-        always = set(self.protocol.messages).difference(self.protocol.conditional)
-        self._supervisor = Supervisor(
-            self.protocol,
-            self.protocol.nodes[0],
-            expect=[kind for kind in always if kind.PERIOD is not None],
-        )
+        self._supervisor = Supervisor(self.protocol, None)
         self._supervisor.start(now)
         self._began = now
         self._frames = 0
@@ -91,7 +84,8 @@ class Watch:
     @property
     def next_check(self) -> float:
         """When `check` is due; infinite for never."""
-        return min(self._supervisor.next_check, self._transfers.next_deadline)
+        of_glance = self._glance.next_check if self._glance else math.inf
+        return min(self._supervisor.next_check, of_glance)
 
     def take(self, frame: can.Message, now: float) -> tuple[WatchEvent | Fault, ...]:
         """What a frame that came at ``now`` brings about."""
@@ -109,56 +103,36 @@ class Watch:
         """What time alone has changed up to now."""
         if now < self.next_check:
             return ()
-        return (*self._supervisor.check(now), *self._transfers.expire(now))
+        noticed = self._glance.check(now) if self._glance else ()
+        return (*self._supervisor.check(now), *noticed)
 
     def picture(self, now: float) -> Picture:
         """All that is known at ``now``."""
         snapshot = self._supervisor.snapshot(now)
-        known = {message.name: message for message in snapshot.messages}
-        rows = tuple(
-            message_row(kind, known.get(kind.NAME), self.protocol)
-            for kind in self.protocol.messages
-        )
+        known = tuple(zip(self.protocol.messages, snapshot.messages, strict=True))
+        rows = tuple(message_row(kind, message, self.protocol) for kind, message in known)
+        alarms, last = tuple(self._alarms(known, now)), dict(self._last)
         states = {row.name: row.state for row in rows}
         return Picture(
             time=now,
             protocol=self.protocol,
             totals=self._totals(now),
             messages=rows,
-            pack=Pack(
-                tuple(sections(self.protocol, self._last, states)),
-                tuple(self._alarms(snapshot, now)),
-            ),
-            cells=self._cells.map(now),
-            vin=self._vin,
-            pack_code=self._pack_code,
+            alarms=alarms,
+            look=self._glance.look(Known(now, last, states, alarms)) if self._glance else None,
             foreign=tuple(
                 ForeignRow(frame_id, is_extended, int(frames), now - at)
                 for (frame_id, is_extended), (frames, at) in sorted(self._foreign.items())
             ),
-            last=dict(self._last),
+            last=last,
         )
 
     def _take_message(self, received: Received, now: float) -> tuple[WatchEvent | Fault, ...]:
         message = received.message
         self._last[type(message)] = Seen(received, now)
         events = (*received.faults, *self._supervisor.take(received, now))
-        outcomes = self._transfers.take(message, now)
-        for outcome in outcomes:
-            self._keep(outcome)
-        if isinstance(message, B2V_Ucell):
-            self._cells.take(message, now)
-        elif isinstance(message, B2V_BattInfo2):
-            self._cells.take_totals(message)
-        return (*events, *outcomes)
-
-    def _keep(self, outcome: Outcome) -> None:
-        if isinstance(outcome, Vin):
-            self._vin = outcome.text
-        elif isinstance(outcome, PackCode):
-            self._pack_code = outcome.text
-        elif isinstance(outcome, CellVoltages):
-            self._cells.take_set(outcome)
+        noticed = self._glance.take(message, now) if self._glance else ()
+        return (*events, *noticed)
 
     def _take_foreign(self, frame: can.Message, now: float) -> None:
         if frame.is_error_frame:
@@ -188,10 +162,19 @@ class Watch:
             load=load,
         )
 
-    def _alarms(self, snapshot: Snapshot, now: float) -> Iterator[Alarm]:
-        for known in snapshot.messages:
+    def _alarms(
+        self, messages: Iterable[tuple[type[Message], MessageSnapshot]], now: float
+    ) -> Iterator[Alarm]:
+        summed_up = self._glance.summed_up if self._glance else ()
+        for kind, known in messages:
             for signal in known.signals:
-                if signal.kind == "alarm" and not is_alarm_level(known.name, signal.field):
-                    field = self.protocol.message(known.name).FIELDS[signal.field]
+                if signal.kind == "alarm" and FieldRef(kind, signal.field) not in summed_up:
+                    field = kind.FIELDS[signal.field]
                     age = now - signal.since
-                    yield Alarm(known.name, field.dbc_name, field.title, signal.text, age)
+                    yield Alarm(kind.NAME, field.dbc_name, field.title, signal.text, age)
+
+
+def _bitrate_of(protocol: Protocol) -> float | None:
+    """The bit rate of all its buses, in bit/s; None where none is given or they differ."""
+    rates = {bus.bit_rate for bus in protocol.model.buses if bus.bit_rate > 0}
+    return rates.pop() if len(rates) == 1 else None

@@ -85,10 +85,10 @@ class Recording:
         return RecordingError(f"{self.path}: {_reason(error)}")
 
 
-def free_name(folder: Path, suffix: str = ".blf") -> Path:
-    """The first of swapcan-1, swapcan-2 and so on that is not there yet."""
+def free_name(folder: Path, stem: str, suffix: str = ".blf") -> Path:
+    """The first of stem-1, stem-2 and so on that is not there yet."""
     number = 1
-    while (path := folder / f"swapcan-{number}{suffix}").exists():
+    while (path := folder / f"{stem}-{number}{suffix}").exists():
         number += 1
     return path
 

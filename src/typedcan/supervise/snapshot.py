@@ -109,7 +109,7 @@ class Snapshot:
     Parameters
     ----------
     node
-        The node that receives them.
+        The node that receives them; empty where it is not one alone.
     time
         The moment, in seconds of the clock.
     messages

@@ -31,7 +31,7 @@ class Supervisor:
     Parameters
     ----------
     protocol, node
-        Whose messages, and the node that receives them.
+        Whose messages, and the node that receives them; None for all of them, as a monitor does.
     expect
         The messages that have to come; without it those for the node that have a period at all
         times.
@@ -49,7 +49,7 @@ class Supervisor:
     def __init__(
         self,
         protocol: Protocol,
-        node: str,
+        node: str | None,
         *,
         expect: Iterable[type[Message]] | None = None,
         timeout_periods: float = 5.0,
@@ -57,8 +57,9 @@ class Supervisor:
         timeouts: Mapping[type[Message], float] | None = None,
         timestamps: bool = True,
     ) -> None:
-        self._node = node
-        self._meant = frozenset(protocol.received_by(node))
+        self._node = node or ""
+        meant = protocol.messages if node is None else protocol.received_by(node)
+        self._meant = frozenset(meant)
         self._timeout_periods = _positive(timeout_periods, "timeout_periods")
         self._late_periods = _positive(late_periods, "late_periods")
         self._timestamps = timestamps
@@ -83,7 +84,7 @@ class Supervisor:
         """Wait for the expected messages from now on; silence before does not count."""
         for tracked in self._tracked.values():
             tracked.wait_from(now)
-        self._next = min(tracked.deadline for tracked in self._tracked.values())
+        self._next = self._first_deadline()
 
     def expect_period(
         self, message: type[Message], seconds: float | None, *, now: float | None = None
@@ -132,7 +133,7 @@ class Supervisor:
         due = [(tracked.deadline, tracked) for tracked in self._tracked.values()]
         due = sorted((one for one in due if one[0] <= now), key=itemgetter(0))
         events = tuple(tracked.overdue(now) for _, tracked in due)
-        self._next = min(tracked.deadline for tracked in self._tracked.values())
+        self._next = self._first_deadline()
         return events
 
     def state(self, message: type[Message]) -> State:
@@ -156,6 +157,9 @@ class Supervisor:
         if tracked is None:
             raise UnknownMessageError(f"{message.__name__} is no message of this protocol")
         return tracked
+
+    def _first_deadline(self) -> float:
+        return min((tracked.deadline for tracked in self._tracked.values()), default=math.inf)
 
     def _expect(self, tracked: TrackedMessage, period: float | None) -> None:
         tracked.expected = True

@@ -14,7 +14,7 @@ from textual.widgets import ContentSwitcher, DataTable, Static
 from swapcan.monitor.picture import Picture
 from swapcan.monitor.session import Session
 from swapcan.monitor.view.help import HelpScreen
-from swapcan.monitor.view.panes import MessagesPane, PackPane, SignalsPane, Where
+from swapcan.monitor.view.panes import GlancePane, MessagesPane, SignalsPane, Where
 from swapcan.monitor.view.prompt import Prompt
 from swapcan.monitor.view.status import Shown, panes_line, status_line
 from typedcan.shell.recording import RecordingError, free_name
@@ -23,7 +23,7 @@ INTERRUPTED = 130
 """The exit status after Ctrl-C."""
 
 _TICK = 0.1
-_PANES = ("messages", "signals", "pack")
+_PANES = ("messages", "signals", "glance")
 
 
 class MonitorApp(App[int]):
@@ -37,6 +37,8 @@ class MonitorApp(App[int]):
         The name of the bus.
     name_filter
         What the messages are filtered by at first.
+    record_name
+        What names of recordings begin with that are proposed.
     is_over
         Whether it is time to end.
     """
@@ -45,7 +47,7 @@ class MonitorApp(App[int]):
     Screen { background: ansi_default; color: ansi_default; }
     #panes, #status { height: 1; text-wrap: nowrap; text-overflow: ellipsis; }
     ContentSwitcher { height: 1fr; }
-    PackPane { scrollbar-size: 1 1; background: ansi_default; }
+    GlancePane { scrollbar-size: 1 1; background: ansi_default; }
     """
     ENABLE_COMMAND_PALETTE = False
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -76,6 +78,7 @@ class MonitorApp(App[int]):
         bus: str,
         *,
         name_filter: str = "",
+        record_name: str = "recording",
         is_over: Callable[[], bool] = lambda: False,
     ) -> None:
         # The terminal's own colours, be it dark or light; said here too, for NO_COLOR.
@@ -83,14 +86,17 @@ class MonitorApp(App[int]):
         self.theme = "ansi-dark"
         self._session = session
         self._bus = bus
+        self._record_name = record_name
         self._is_over = is_over
         self._picture: Picture = session.picture()
         self._is_paused = False
         self._ended = session.status().ended
-        self._messages = MessagesPane()
+        look = self._picture.look
+        self._panes = dict(zip(_PANES, (*_PANES[:2], look.name if look else "alarms"), strict=True))
+        self._messages = MessagesPane(self._picture.protocol)
         self._messages.filter = name_filter
         self._signals = SignalsPane()
-        self._pack = PackPane()
+        self._glance = GlancePane()
         self._switcher = ContentSwitcher(initial=_PANES[0])
         self._panes_line = Static(id="panes")
         self._status_line = Static(id="status")
@@ -103,7 +109,7 @@ class MonitorApp(App[int]):
         with self._switcher:
             yield self._messages
             yield self._signals
-            yield self._pack
+            yield self._glance
         yield self._prompt
 
     def on_mount(self) -> None:
@@ -165,7 +171,7 @@ class MonitorApp(App[int]):
 
     def action_move(self, where: Where) -> None:
         """Move the cursor, or scroll."""
-        (self._tables or self._pack).move(where)
+        (self._tables or self._glance).move(where)
 
     def action_match(self, step: int) -> None:
         """Go to the next match."""
@@ -208,11 +214,11 @@ class MonitorApp(App[int]):
             self._session.stop_recording()
             self._show()
         else:
-            self._prompt.ask("record", "record to:", str(free_name(Path())))
+            self._prompt.ask("record", "record to:", str(free_name(Path(), self._record_name)))
 
     def action_help(self) -> None:
         """Show the keys."""
-        self.push_screen(HelpScreen())
+        self.push_screen(HelpScreen(tuple(self._panes.values())))
 
     @property
     def _pane(self) -> str:
@@ -231,7 +237,7 @@ class MonitorApp(App[int]):
         return self._prompt.is_asking or len(self.screen_stack) > 1
 
     def _focus(self) -> None:
-        self.screen.set_focus(self._tables.table if self._tables else self._pack)
+        self.screen.set_focus(self._tables.table if self._tables else self._glance)
 
     def _set_filter(self, text: str) -> None:
         if self._tables:
@@ -253,11 +259,11 @@ class MonitorApp(App[int]):
         table = self._tables
         choices = (table.filter, table.sort) if table else ("", "")
         shown = Shown(*choices, is_paused=self._is_paused)
-        self._panes_line.update(panes_line(_PANES, self._pane, self._bus))
+        self._panes_line.update(panes_line(self._panes, self._pane, self._bus))
         self._status_line.update(status_line(self._picture, status, shown))
         if table is self._messages:
             self._messages.show(self._picture)
         elif table is self._signals:
             self._signals.show(self._picture, self._messages.table.selected)
         else:
-            self._pack.show(self._picture)
+            self._glance.show(self._picture)

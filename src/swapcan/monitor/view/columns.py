@@ -10,10 +10,14 @@ from rich.text import Text
 
 from swapcan.monitor.rows import MessageRow, SignalRow
 from swapcan.monitor.view.styles import WARNING, age, mark_text, milliseconds, number, state_text
+from typedcan.wire.protocol import Protocol
 
 RowT = TypeVar("RowT")
 
 _GAP = 1
+
+_LONGEST_NAME = 32
+"""Characters; what is longer is cut."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +75,22 @@ def ordered(
     return sorted(rows, key=order, reverse=not isinstance(order(rows[0]), str))
 
 
+def _widest(least: int, names: Sequence[str]) -> int:
+    return min(max([least, *map(len, names)]), _LONGEST_NAME)
+
+
+def _by_identifier(row: MessageRow) -> str:
+    return f"{row.frame_id:08X}"
+
+
+def _receivers(row: MessageRow) -> str:
+    return next(iter(row.receivers), "")
+
+
+def _period(row: MessageRow) -> Text:
+    return number(milliseconds(row.period) or "on event")
+
+
 def _measured(row: MessageRow, seconds: float | None) -> Text:
     """A measured time; between events it means little."""
     return number("" if row.period is None else milliseconds(seconds))
@@ -93,42 +113,38 @@ def _seconds(value: float | None) -> float:
     return -1.0 if value is None else value
 
 
-MESSAGE_COLUMNS: tuple[Column[MessageRow], ...] = (
-    Column("message", 14, 0, lambda row: Text(row.name), lambda row: row.name),
-    Column(
-        "id", 10, 7, lambda row: Text(f"0x{row.frame_id:08X}"), lambda row: f"{row.frame_id:08X}"
-    ),
-    Column("from", 4, 8, lambda row: Text(row.sender), lambda row: row.sender),
-    Column("state", 12, 1, lambda row: state_text(row.state), lambda row: row.state),
-    Column("frames", 8, 2, lambda row: number(str(row.frames)), lambda row: row.frames),
-    Column(
-        "period",
-        9,
-        4,
-        lambda row: number(milliseconds(row.period) or "on event"),
-        lambda row: _seconds(row.period),
-    ),
-    Column("mean", 9, 3, lambda row: _measured(row, row.mean), lambda row: _seconds(row.mean)),
-    Column(
-        "jitter",
-        9,
-        9,
-        lambda row: _measured(row, row.jitter),
-        lambda row: _seconds(row.jitter),
-    ),
-    Column(
-        "worst",
-        9,
-        10,
-        lambda row: _measured(row, row.worst),
-        lambda row: _seconds(row.worst),
-    ),
-    Column("age", 7, 5, lambda row: number(age(row.age)), lambda row: _seconds(row.age)),
-    Column("faults", 7, 6, _faults, lambda row: row.fault_count),
-    Column("signals", 7, 11, _wrong, lambda row: row.wrong),
-    Column("to", 8, 12, lambda row: Text(", ".join(row.receivers)), lambda row: row.receivers[0]),
-)
-"""Those of messages; "signals" is how many of them say that something is wrong."""
+def message_columns(protocol: Protocol) -> tuple[Column[MessageRow], ...]:
+    """Those of messages; "signals" is how many of them say that something is wrong."""
+    name = _widest(14, [kind.NAME for kind in protocol.messages])
+    sender = _widest(4, [kind.SENDER for kind in protocol.messages])
+    return (
+        Column("message", name, 0, lambda row: Text(row.name), lambda row: row.name),
+        Column("id", 10, 7, lambda row: Text(row.identifier), _by_identifier),
+        Column("from", sender, 8, lambda row: Text(row.sender), lambda row: row.sender),
+        Column("state", 12, 1, lambda row: state_text(row.state), lambda row: row.state),
+        Column("frames", 8, 2, lambda row: number(str(row.frames)), lambda row: row.frames),
+        Column("period", 9, 4, _period, lambda row: _seconds(row.period)),
+        Column("mean", 9, 3, lambda row: _measured(row, row.mean), lambda row: _seconds(row.mean)),
+        Column(
+            "jitter",
+            9,
+            9,
+            lambda row: _measured(row, row.jitter),
+            lambda row: _seconds(row.jitter),
+        ),
+        Column(
+            "worst",
+            9,
+            10,
+            lambda row: _measured(row, row.worst),
+            lambda row: _seconds(row.worst),
+        ),
+        Column("age", 7, 5, lambda row: number(age(row.age)), lambda row: _seconds(row.age)),
+        Column("faults", 7, 6, _faults, lambda row: row.fault_count),
+        Column("signals", 7, 11, _wrong, lambda row: row.wrong),
+        Column("to", 8, 12, lambda row: Text(", ".join(row.receivers)), _receivers),
+    )
+
 
 SIGNAL_COLUMNS: tuple[Column[SignalRow], ...] = (
     Column("signal", 30, 0, lambda row: Text(row.name), lambda row: row.name),

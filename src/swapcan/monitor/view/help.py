@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar
 
 from textual.app import ComposeResult
@@ -10,8 +11,8 @@ from textual.containers import VerticalScroll
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
-HELP = """\
-Tab 1 2 3      next pane: messages, signals, pack
+_HELP = """\
+Tab 1 2 3      next pane: {panes}
 j k, arrows    down and up; PgUp PgDn, g G: top, end
 Enter          the signals of this message
 left right     the message before, the one after
@@ -33,7 +34,7 @@ Any of h q Esc Enter goes back."""
 
 
 class HelpScreen(ModalScreen[None]):
-    """Shows the keys until one is pressed that goes back."""
+    """Shows the keys until one is pressed that goes back; ``panes`` are those that there are."""
 
     DEFAULT_CSS = """
     HelpScreen { align: center middle; background: ansi_default; }
@@ -46,7 +47,11 @@ class HelpScreen(ModalScreen[None]):
         Binding("h,question_mark,f1,q,f10,escape,enter,space", "dismiss", show=False),
     ]
 
+    def __init__(self, panes: Sequence[str]) -> None:
+        super().__init__()
+        self._text = _HELP.format(panes=", ".join(panes))
+
     def compose(self) -> ComposeResult:
         """The text in a box."""
         with VerticalScroll():
-            yield Static(HELP, markup=False)
+            yield Static(self._text, markup=False)

@@ -1,4 +1,4 @@
-"""The pack as text: its values in blocks beside each other, its alarms, and its cells as a map."""
+"""The pack as text: its values in blocks beside each other, and its cells as a map."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from rich.text import Text
 
 from swapcan.monitor.cells import Cell, CellMap
 from swapcan.monitor.pack import Item, Pack, Section
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.view.styles import ALERT, age, mark_text
+from swapcan.monitor.view.styles import ALERT, mark_text
 from swapcan.transfer import Reading
 from typedcan.wire.message import SignalState
 
@@ -24,15 +23,13 @@ _LEAST_SPAN = 0.02
 """Volts that the map shows at least: a millivolt of difference is none."""
 
 
-def pack_text(picture: Picture, width: int) -> Text:
+def pack_text(pack: Pack, cells: CellMap, vin: str, pack_code: str, width: int) -> Text:
     """All of it, in lines of that many characters at most."""
     lines = [
-        *_alarms(picture.pack),
+        *_blocks(pack, width),
+        Text(f"VIN {vin or '-'}    pack code {pack_code or '-'}"),
         Text(),
-        *_blocks(picture.pack, width),
-        Text(f"VIN {picture.vin or '-'}    pack code {picture.pack_code or '-'}"),
-        Text(),
-        *_cells(picture.cells, width),
+        *_cells(cells, width),
     ]
     for line in lines:
         line.truncate(width, overflow="ellipsis")
@@ -65,15 +62,6 @@ def _item(item: Item) -> Text:
     line.append(f"{item.text or '-'} ")
     # What is invalid says so itself.
     return line.append_text(mark_text("" if item.mark == "invalid" else item.mark))
-
-
-def _alarms(pack: Pack) -> Iterator[Text]:
-    yield Text.assemble(("alarms", "bold underline"), f"  {len(pack.alarms) or 'none'}")
-    for alarm in pack.alarms:
-        yield Text.assemble(
-            (f"! {alarm.text}", ALERT),
-            f"  {alarm.title}, {alarm.message}, since {age(alarm.age)}",
-        )
 
 
 def _cells(cells: CellMap, width: int) -> Iterator[Text]:

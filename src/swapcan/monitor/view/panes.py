@@ -1,8 +1,8 @@
-"""The three panes: the messages, the signals of one of them, and the pack."""
+"""The three panes: the messages, the signals of one of them, and what there is at a glance."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Generic, Literal, TypeVar
 
 from rich.text import Text
@@ -11,11 +11,12 @@ from textual.containers import Vertical, VerticalScroll
 from textual.widgets import DataTable, Static
 
 from swapcan.monitor.picture import Picture
-from swapcan.monitor.rows import MessageRow, SignalRow
-from swapcan.monitor.view.columns import MESSAGE_COLUMNS, SIGNAL_COLUMNS, Column, ordered
-from swapcan.monitor.view.pack_text import pack_text
-from swapcan.monitor.view.styles import age, milliseconds, state_text
+from swapcan.monitor.rows import Alarm, MessageRow, SignalRow
+from swapcan.monitor.view.columns import SIGNAL_COLUMNS, Column, message_columns, ordered
+from swapcan.monitor.view.styles import ALERT, age, milliseconds, state_text
 from swapcan.monitor.view.table import Table
+from typedcan.shell.printing import printable
+from typedcan.wire.protocol import Protocol
 
 RowT = TypeVar("RowT", MessageRow, SignalRow)
 
@@ -81,8 +82,8 @@ class TablePane(Vertical, Generic[RowT]):
 class MessagesPane(TablePane[MessageRow]):
     """All messages of the protocol."""
 
-    def __init__(self) -> None:
-        super().__init__(MESSAGE_COLUMNS, lambda row: row.name, id="messages")
+    def __init__(self, protocol: Protocol) -> None:
+        super().__init__(message_columns(protocol), lambda row: row.name, id="messages")
 
     def show(self, picture: Picture) -> None:
         """Show the messages of a picture."""
@@ -108,11 +109,11 @@ class SignalsPane(TablePane[SignalRow]):
         self.show_rows(picture.signals(row.name) if row else ())
 
 
-class PackPane(VerticalScroll):
-    """The pack at a glance."""
+class GlancePane(VerticalScroll):
+    """The alarms of all nodes, and what the glance of the protocol shows, where it has one."""
 
     def __init__(self) -> None:
-        super().__init__(id="pack")
+        super().__init__(id="glance")
         self._text = Static(markup=False)
 
     def compose(self) -> ComposeResult:
@@ -120,8 +121,14 @@ class PackPane(VerticalScroll):
         yield self._text
 
     def show(self, picture: Picture) -> None:
-        """Show the pack of a picture."""
-        self._text.update(pack_text(picture, self.scrollable_content_region.width))
+        """Show the alarms of a picture, and its look."""
+        width = self.scrollable_content_region.width
+        lines = list(_alarms(picture.alarms))
+        for line in lines:
+            line.truncate(width, overflow="ellipsis")
+        if picture.look:
+            lines += [Text(), picture.look.text(width)]
+        self._text.update(Text("\n").join(lines))
 
     def move(self, where: Where) -> None:
         """Scroll."""
@@ -135,13 +142,20 @@ class PackPane(VerticalScroll):
             self.scroll_end(animate=False)
 
 
+def _alarms(alarms: Sequence[Alarm]) -> Iterator[Text]:
+    yield Text.assemble(("alarms", "bold underline"), f"  {len(alarms) or 'none'}")
+    for alarm in alarms:
+        rest = f"  {alarm.title or alarm.signal}, {alarm.message}, since {age(alarm.age)}"
+        yield Text.assemble((printable(f"! {alarm.text}"), ALERT), printable(rest))
+
+
 def _title(row: MessageRow) -> Text:
     period = milliseconds(row.period) or "on event"
     came = f", {age(row.age)} ago" if row.age is not None else ""
-    route = f"{row.sender} > {', '.join(row.receivers)}"
+    route = f"{row.sender or '-'} > {', '.join(row.receivers) or '-'}"
     return Text.assemble(
         (row.name, "bold"),
-        f"  0x{row.frame_id:08X}  {route}  {period}  ",
+        f"  {row.identifier}  {route}  {period}  ",
         state_text(row.state),
         came,
     )

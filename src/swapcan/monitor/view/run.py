@@ -19,12 +19,21 @@ _SIGNALS = {"SIGINT": INTERRUPTED, "SIGTERM": 143}
 _HUNG_UP = 129
 
 
-def run_view(session: Session, bus: str, *, name_filter: str, is_over: Callable[[], bool]) -> int:
+def run_view(
+    session: Session,
+    bus: str,
+    *,
+    name_filter: str,
+    record_name: str,
+    is_over: Callable[[], bool],
+) -> int:
     """Show a session until it is left, and return the exit status; as `MonitorApp`.
 
     Where the terminal goes away the process ends, once the recording is closed.
     """
-    app = MonitorApp(session, bus, name_filter=name_filter, is_over=is_over)
+    app = MonitorApp(
+        session, bus, name_filter=name_filter, record_name=record_name, is_over=is_over
+    )
     with _ending_with_the_terminal(session):
         return asyncio.run(_run(app))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rich.text import Text
@@ -27,15 +27,15 @@ class Shown:
     is_paused: bool
 
 
-def panes_line(panes: Sequence[str], current: str, bus: str) -> Content:
-    """The panes, of which one is shown, and the bus; a click on a pane shows it."""
+def panes_line(panes: Mapping[str, str], current: str, bus: str) -> Content:
+    """The panes by their keys, of which one is shown, and the bus; a click on one shows it."""
     return Content.assemble(
         *(
             Content.from_markup(
                 f"[{'reverse ' if pane == current else ''}@click=app.show_pane('{pane}')]"
-                f" {number} {pane} [/]"
+                f" {number} {name} [/]"
             )
-            for number, pane in enumerate(panes, 1)
+            for number, (pane, name) in enumerate(panes.items(), 1)
         ),
         f"{_GAP}{printable(bus)}",
     )
@@ -67,8 +67,10 @@ def _rates(picture: Picture) -> str:
         (totals.errors, "error frames"),
     )
     told = [f"{count} {what}" for count, what in counts if count]
-    rate = f"{totals.frames_per_second:.0f} frames/s{_GAP}load about {100 * totals.load:.0f} %"
-    return _GAP.join((rate, *told))
+    rates = [f"{totals.frames_per_second:.0f} frames/s"]
+    if totals.load is not None:
+        rates.append(f"load about {100 * totals.load:.0f} %")
+    return _GAP.join((*rates, *told))
 
 
 def _choices(shown: Shown) -> list[tuple[str, str]]:

@@ -10,6 +10,7 @@ from textual.binding import Binding, BindingType
 from textual.widgets import DataTable
 
 from swapcan.monitor.view.columns import Column, fitting
+from typedcan.shell.printing import printable
 
 RowT = TypeVar("RowT")
 
@@ -93,7 +94,12 @@ class Table(DataTable[Text], Generic[RowT]):
 
 
 def _fitted(cell: Text, width: int) -> Text:
-    """The cell, as wide as its column at most, and a number at the right of it."""
+    """The cell, as wide as its column at most, and a number at the right of it.
+
+    Labels, units and titles come from files: what a terminal would obey in them is shown.
+    """
+    if not cell.plain.isprintable():
+        cell.plain = printable(cell.plain)
     cell.truncate(width, overflow="ellipsis")
     if cell.justify == "right":
         cell.pad_left(width - len(cell))
