@@ -11,11 +11,11 @@ import cantools
 from cantools.database.can import Database
 
 from swapcan import PROTOCOL
-from swapcan.monitor.look import PackGlance, PackLook
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.rows import MessageRow, SignalRow
-from swapcan.monitor.session import Session
-from swapcan.monitor.watch import Watch
+from swapcan.glance.look import PackGlance, PackLook
+from typedcan.monitor.picture import Picture
+from typedcan.monitor.rows import MessageRow, SignalRow
+from typedcan.monitor.session import Session
+from typedcan.monitor.watch import Watch
 from typedcan.wire.clock import SimulatedClock
 
 _DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"

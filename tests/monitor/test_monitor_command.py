@@ -118,7 +118,7 @@ def test_without_textual_it_says_what_to_install(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(monitor, "_has_terminal", lambda: True)
-    for name in [name for name in sys.modules if name.startswith("swapcan.monitor.view")]:
+    for name in [name for name in sys.modules if name.startswith("typedcan.monitor.view")]:
         monkeypatch.delitem(sys.modules, name)
     for name in [name for name in sys.modules if name.split(".")[0] == "textual"]:
         monkeypatch.setitem(sys.modules, name, None)

@@ -14,9 +14,9 @@ from can.interfaces.virtual import VirtualBus
 from monitor.monitored import frame
 
 from swapcan import PROTOCOL
-from swapcan.monitor.listener import Listener
-from swapcan.monitor.session import Session
-from swapcan.monitor.watch import Watch
+from typedcan.monitor.listener import Listener
+from typedcan.monitor.session import Session
+from typedcan.monitor.watch import Watch
 from typedcan.node.events import BusBack, BusLost
 from typedcan.wire.clock import SystemClock
 

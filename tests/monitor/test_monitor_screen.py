@@ -19,7 +19,7 @@ pytest.importorskip("textual", reason="the view needs textual")
 
 from monitor.screen import screen_lines
 
-from swapcan.monitor.view import MonitorApp
+from typedcan.monitor.view import MonitorApp
 
 _RENEW = bool(os.environ.get("SWAPCAN_RENEW_SCREENS"))
 

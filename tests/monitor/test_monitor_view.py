@@ -15,7 +15,7 @@ pytest.importorskip("textual", reason="the view needs textual")
 from monitor.screen import rows_of, screen_lines
 from textual.pilot import Pilot
 
-from swapcan.monitor.view import MonitorApp
+from typedcan.monitor.view import MonitorApp
 from typedcan.node.events import BusBack, BusLost
 
 Steps = Callable[[Pilot[int]], Awaitable[None]]

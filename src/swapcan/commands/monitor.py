@@ -18,12 +18,12 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.monitor_lines import MonitorLines
-from swapcan.monitor.listener import Listener
-from swapcan.monitor.look import glance_of
-from swapcan.monitor.session import Recorded, Session
-from swapcan.monitor.watch import Watch
+from swapcan.glance.look import glance_of
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from typedcan.model.errors import one_line
+from typedcan.monitor.listener import Listener
+from typedcan.monitor.session import Recorded, Session
+from typedcan.monitor.watch import Watch
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, count, note, seconds
 from typedcan.wire.clock import SystemClock
@@ -106,7 +106,7 @@ Show = Callable[[argparse.Namespace, Session, str, Callable[[], bool]], int]
 
 def _view() -> Show:
     try:
-        from swapcan.monitor.view import run_view
+        from typedcan.monitor.view import run_view
     except ModuleNotFoundError as error:
         if error.name and error.name.startswith("swapcan"):
             raise

@@ -40,10 +40,10 @@ import json
 from collections import Counter
 from typing import Any
 
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.rows import MessageRow, Seen
-from swapcan.monitor.session import Session, SessionEvent, Status
 from typedcan.commands.transcript import json_object
+from typedcan.monitor.picture import Picture
+from typedcan.monitor.rows import MessageRow, Seen
+from typedcan.monitor.session import Session, SessionEvent, Status
 from typedcan.shell.console import say
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.link import Fault

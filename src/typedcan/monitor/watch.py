@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator
 
 import can
 
-from swapcan.monitor.bus_load import BusLoad
-from swapcan.monitor.glance import Glance, Known, Noticed
-from swapcan.monitor.picture import ForeignRow, Picture, Totals
-from swapcan.monitor.rows import Alarm, Seen, message_row
+from typedcan.monitor.bus_load import BusLoad
+from typedcan.monitor.glance import Glance, Known, Noticed
+from typedcan.monitor.picture import ForeignRow, Picture, Totals
+from typedcan.monitor.rows import Alarm, Seen, message_row
 from typedcan.supervise import SupervisionEvent, Supervisor
 from typedcan.supervise.snapshot import MessageSnapshot
 from typedcan.wire.codec import Codec

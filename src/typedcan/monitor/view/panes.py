@@ -10,11 +10,11 @@ from textual.app import ComposeResult
 from textual.containers import Vertical, VerticalScroll
 from textual.widgets import DataTable, Static
 
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.rows import Alarm, MessageRow, SignalRow
-from swapcan.monitor.view.columns import SIGNAL_COLUMNS, Column, message_columns, ordered
-from swapcan.monitor.view.styles import ALERT, age, milliseconds, state_text
-from swapcan.monitor.view.table import Table
+from typedcan.monitor.picture import Picture
+from typedcan.monitor.rows import Alarm, MessageRow, SignalRow
+from typedcan.monitor.view.columns import SIGNAL_COLUMNS, Column, message_columns, ordered
+from typedcan.monitor.view.styles import ALERT, age, milliseconds, state_text
+from typedcan.monitor.view.table import Table
 from typedcan.shell.printing import printable
 from typedcan.wire.protocol import Protocol
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rich.text import Text
 
-from swapcan.monitor.rows import ENDED, LATE, LOST, NEVER_SEEN
+from typedcan.monitor.rows import ENDED, LATE, LOST, NEVER_SEEN
 
 # Both colours are given, or none: on its own, yellow is lost on white and blue on black.
 ALERT = "white on red"

@@ -11,7 +11,7 @@ from typing import Self
 
 import can
 
-from swapcan.monitor.session import Session
+from typedcan.monitor.session import Session
 from typedcan.node.port import Port
 
 _WAIT = 0.1

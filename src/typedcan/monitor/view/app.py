@@ -11,12 +11,12 @@ from textual.app import App, ComposeResult
 from textual.binding import Binding, BindingType
 from textual.widgets import ContentSwitcher, DataTable, Static
 
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.session import Session
-from swapcan.monitor.view.help import HelpScreen
-from swapcan.monitor.view.panes import GlancePane, MessagesPane, SignalsPane, Where
-from swapcan.monitor.view.prompt import Prompt
-from swapcan.monitor.view.status import Shown, panes_line, status_line
+from typedcan.monitor.picture import Picture
+from typedcan.monitor.session import Session
+from typedcan.monitor.view.help import HelpScreen
+from typedcan.monitor.view.panes import GlancePane, MessagesPane, SignalsPane, Where
+from typedcan.monitor.view.prompt import Prompt
+from typedcan.monitor.view.status import Shown, panes_line, status_line
 from typedcan.shell.recording import RecordingError, free_name
 
 INTERRUPTED = 130

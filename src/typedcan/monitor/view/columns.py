@@ -8,8 +8,8 @@ from typing import Generic, TypeVar
 
 from rich.text import Text
 
-from swapcan.monitor.rows import MessageRow, SignalRow
-from swapcan.monitor.view.styles import WARNING, age, mark_text, milliseconds, number, state_text
+from typedcan.monitor.rows import MessageRow, SignalRow
+from typedcan.monitor.view.styles import WARNING, age, mark_text, milliseconds, number, state_text
 from typedcan.wire.protocol import Protocol
 
 RowT = TypeVar("RowT")

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from swapcan.monitor.session import Session
-from swapcan.monitor.view.app import INTERRUPTED, MonitorApp
+from typedcan.monitor.session import Session
+from typedcan.monitor.view.app import INTERRUPTED, MonitorApp
 
 _SIGNALS = {"SIGINT": INTERRUPTED, "SIGTERM": 143}
 """What ends the view in order, with its exit status."""

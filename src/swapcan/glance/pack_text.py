@@ -7,10 +7,10 @@ from itertools import zip_longest
 
 from rich.text import Text
 
-from swapcan.monitor.cells import Cell, CellMap
-from swapcan.monitor.pack import Item, Pack, Section
-from swapcan.monitor.view.styles import ALERT, mark_text
+from swapcan.glance.cells import Cell, CellMap
+from swapcan.glance.pack import Item, Pack, Section
 from swapcan.transfer import Reading
+from typedcan.monitor.view.styles import ALERT, mark_text
 from typedcan.wire.message import SignalState
 
 _BLOCK = 33

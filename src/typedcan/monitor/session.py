@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import can
 
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.watch import Watch, WatchEvent
+from typedcan.monitor.picture import Picture
+from typedcan.monitor.watch import Watch, WatchEvent
 from typedcan.node.events import BusBack, BusLost
 from typedcan.shell.recording import Recording, RecordingError
 from typedcan.wire.clock import Clock

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from rich.text import Text
 from textual.content import Content
 
-from swapcan.monitor.picture import Picture
-from swapcan.monitor.rows import LATE, LOST
-from swapcan.monitor.session import Status
-from swapcan.monitor.view.styles import ALERT, WARNING
+from typedcan.monitor.picture import Picture
+from typedcan.monitor.rows import LATE, LOST
+from typedcan.monitor.session import Status
+from typedcan.monitor.view.styles import ALERT, WARNING
 from typedcan.shell.printing import printable
 
 _GAP = "  "

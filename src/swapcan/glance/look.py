@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from swapcan._generated.protocol import PROTOCOL
+from swapcan.glance.cells import CellMap, Cells
+from swapcan.glance.pack import Pack, pack_of
 from swapcan.messages import B2V_ST1, B2V_BattInfo2, B2V_Ucell
-from swapcan.monitor.cells import CellMap, Cells
-from swapcan.monitor.glance import Known, Noticed
-from swapcan.monitor.pack import Pack, pack_of
-from swapcan.monitor.rows import Alarm
 from swapcan.transfer import CellVoltages, Outcome, PackCode, ProbeTemperatures, Transfers, Vin
+from typedcan.monitor.glance import Known, Noticed
+from typedcan.monitor.rows import Alarm
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef, Protocol
 
@@ -70,7 +70,7 @@ class PackLook:
 
     def text(self, width: int) -> Any:
         """All of it as a text of `rich`, in lines of so many characters at most."""
-        from swapcan.monitor.view.pack_text import pack_text  # with the view alone there is rich
+        from swapcan.glance.pack_text import pack_text  # with the view alone there is rich
 
         return pack_text(self.pack, self.cells, self.vin, self.pack_code, width)
 

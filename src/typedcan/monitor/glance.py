@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 from typing import Protocol as Shape
 
-from swapcan.monitor.rows import Alarm, Seen
+from typedcan.monitor.rows import Alarm, Seen
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef
 

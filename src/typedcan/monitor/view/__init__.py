@@ -1,6 +1,6 @@
 """The view in a terminal, by Textual: messages, signals and the pack."""
 
-from swapcan.monitor.view.app import MonitorApp
-from swapcan.monitor.view.run import run_view
+from typedcan.monitor.view.app import MonitorApp
+from typedcan.monitor.view.run import run_view
 
 __all__ = ["MonitorApp", "run_view"]

@@ -9,7 +9,7 @@ from rich.text import Text
 from textual.binding import Binding, BindingType
 from textual.widgets import DataTable
 
-from swapcan.monitor.view.columns import Column, fitting
+from typedcan.monitor.view.columns import Column, fitting
 from typedcan.shell.printing import printable
 
 RowT = TypeVar("RowT")

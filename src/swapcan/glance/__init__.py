@@ -1,0 +1,1 @@
+"""What the monitor shows of this standard beside messages and signals."""
