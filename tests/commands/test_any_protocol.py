@@ -79,7 +79,8 @@ def test_convert_writes_the_tables_of_a_database(tmp_path: Path) -> None:
     run("--dbc", FIXTURES / "logs" / "pack_gbk.dbc", "convert", PACK, "-o", output)
     table = pq.read_table(output)
     assert table.column("Temp").to_pylist() == [80, 81]
-    assert table.schema.field("Temp").metadata[b"unit"].decode() == "℃"
+    metadata = table.schema.field("Temp").metadata or {}
+    assert metadata[b"unit"].decode() == "℃"
 
 
 def test_plot_draws_signals_of_a_database(tmp_path: Path) -> None:
