@@ -15,9 +15,9 @@ from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
 from dbcspec.emit.json_schema import emit_json_schemas
 from dbcspec.emit.long_names import with_dbc_names
-from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.stubs import emit_stubs
-from dbcspec.rows import DOCUMENTS
+from dbcspec.matrix.write import emit_matrix
+from dbcspec.spec.rows import DOCUMENTS
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dbcspec.compiled import compile_spec
 from dbcspec.config import Config
 from dbcspec.errors import Fault
 from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
-from dbcspec.rows import Spec
+from dbcspec.spec.compiled import compile_spec
+from dbcspec.spec.rows import Spec
 from typedcan.model.protocol import Protocol
 
 

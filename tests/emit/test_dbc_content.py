@@ -12,8 +12,8 @@ from emit.dbc_lines import Dbc
 
 import dbcspec
 import swapcan._generated
-from dbcspec.rows import Spec
-from dbcspec.spec_folder import read_spec
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.rows import Spec
 
 ENGLISH = ("caamtb-swap", "caamtb-swap-vehicle", "caamtb-swap-charger")
 SEND_TYPES = {

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from generator.small_spec import write_spec
 
-from dbcspec.errata import apply_errata
-from dbcspec.rows import SignalRow, Spec
-from dbcspec.spec_folder import read_spec
+from dbcspec.spec.errata import apply_errata
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.rows import SignalRow, Spec
 
 HEAD = "kind: typo, place: p, printed: q, reading: r, because: b"
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from generator.small_spec import edited, write_spec
 
-from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
-from dbcspec.resolve import resolve
-from dbcspec.spec_folder import read_spec
+from dbcspec.spec.errata import apply_errata
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.resolve import resolve
 from typedcan.model.protocol import (
     ByteOrder,
     Checksum,

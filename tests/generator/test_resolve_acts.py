@@ -8,10 +8,10 @@ import pytest
 from generator.command import dbcspec
 from generator.small_spec import FILES, edited, write_project, write_spec
 
-from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
-from dbcspec.resolve import resolve
-from dbcspec.spec_folder import read_spec
+from dbcspec.spec.errata import apply_errata
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.resolve import resolve
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Protocol, Signal
 

@@ -14,8 +14,8 @@ import yaml
 
 from dbcspec.emit.json_schema import emit_json_schemas
 from dbcspec.errors import SpecError
-from dbcspec.rows import DOCUMENTS, Messages, SameCodes, SignalRow, SignalTable
-from dbcspec.schema import (
+from dbcspec.spec.rows import DOCUMENTS, Messages, SameCodes, SignalRow, SignalTable
+from dbcspec.spec.schema import (
     DECIMAL,
     INTEGER,
     NAME,
@@ -28,7 +28,7 @@ from dbcspec.schema import (
     one_of,
     whole_number,
 )
-from dbcspec.source import compose
+from dbcspec.spec.source import compose
 
 
 def faults(read: Callable[[Any], object], text: str) -> list[str]:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dbcspec.errors import SpecError
-from dbcspec.source import Items, Node, Scalar, Table, compose, read_yaml
+from dbcspec.spec.source import Items, Node, Scalar, Table, compose, read_yaml
 
 
 def faults(text: str) -> list[str]:

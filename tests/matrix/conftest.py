@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from matrix.small_spec import FILES
 
-from dbcspec.emit.matrix import emit_matrix
-from dbcspec.read.matrix import read_matrix
+from dbcspec.matrix.read import read_matrix
+from dbcspec.matrix.write import emit_matrix
 from typedcan.model.protocol import Protocol
 
 

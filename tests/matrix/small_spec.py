@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from dbcspec.errata import apply_errata
-from dbcspec.resolve import resolve
-from dbcspec.spec_folder import read_spec
-from dbcspec.write_spec import Proposal
+from dbcspec.spec.errata import apply_errata
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.resolve import resolve
+from dbcspec.spec.write import Proposal
 from typedcan.model.protocol import Code, Protocol, ValueTable
 
 STANDARD = """\

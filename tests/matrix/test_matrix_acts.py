@@ -16,10 +16,10 @@ from matrix.workbooks import MATRIX, columns, edited, signal_rows, small
 from openpyxl.worksheet.worksheet import Worksheet
 
 from dbcspec.compare.run import compare
-from dbcspec.emit.matrix import emit_matrix
 from dbcspec.errors import SpecError
-from dbcspec.read.matrix import read_matrix
-from dbcspec.write_spec import propose_spec
+from dbcspec.matrix.read import read_matrix
+from dbcspec.matrix.write import emit_matrix
+from dbcspec.spec.write import propose_spec
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Aspect, Protocol, Signal
 

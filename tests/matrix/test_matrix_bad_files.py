@@ -14,8 +14,8 @@ import pytest
 from emit.other_protocol import OTHER
 from matrix.workbooks import HEADINGS, SPEED, repacked, save, small
 
-from dbcspec.emit.matrix import emit_matrix
-from dbcspec.read.matrix import read_matrix
+from dbcspec.matrix.read import read_matrix
+from dbcspec.matrix.write import emit_matrix
 from typedcan.model.errors import ReadError
 
 _OLE = bytes.fromhex("d0cf11e0a1b11ae1")

@@ -14,7 +14,7 @@ from matrix.workbooks import (
 )
 
 from dbcspec.errors import SpecError
-from dbcspec.read.matrix import read_matrix
+from dbcspec.matrix.read import read_matrix
 
 
 def test_faulty_cells_are_all_named_with_sheet_row_and_column(tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ import openpyxl
 import pytest
 from emit.other_protocol import OTHER, signal
 
-from dbcspec.emit.matrix import emit_matrix
+from dbcspec.matrix.write import emit_matrix
 from typedcan.model.protocol import Message, Protocol
 
 _RISKY = ("=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "=cmd|' /C calc'!A0", "#N/A")
@@ -142,7 +142,7 @@ class Late(datetime.datetime):
         return datetime.datetime.fromtimestamp(seconds, tz)
 datetime.datetime = Late
 from emit.other_protocol import OTHER
-from dbcspec.emit.matrix import emit_matrix
+from dbcspec.matrix.write import emit_matrix
 sys.stdout.buffer.write(emit_matrix(OTHER))
 """
 

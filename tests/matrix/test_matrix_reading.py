@@ -17,8 +17,8 @@ from matrix.workbooks import (
 )
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.emit.matrix import emit_matrix
-from dbcspec.read.matrix import read_matrix
+from dbcspec.matrix.read import read_matrix
+from dbcspec.matrix.write import emit_matrix
 from typedcan.model.protocol import Aspect, Protocol, SendType
 
 

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from matrix.workbooks import MATRIX
 
 from dbcspec.compare.run import compare
-from dbcspec.emit.matrix import emit_matrix
-from dbcspec.read.matrix import read_matrix
+from dbcspec.matrix.read import read_matrix
+from dbcspec.matrix.write import emit_matrix
 from typedcan.databases.dbc import read_dbc
 from typedcan.model.protocol import Aspect, Code, Message, Protocol, Signal, ValueTable
 

@@ -16,7 +16,7 @@ from matrix.workbooks import (
     small,
 )
 
-from dbcspec.read.matrix import read_matrix
+from dbcspec.matrix.read import read_matrix
 from typedcan.model.protocol import ByteOrder, SendType, Signal
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from matrix.small_spec import applied, changed, codes, lines, model
 
-from dbcspec.write_spec import Proposal, propose_spec
+from dbcspec.spec.write import Proposal, propose_spec
 from typedcan.model.protocol import Protocol
 
 

@@ -12,8 +12,8 @@ from matrix.small_spec import FILES, TABLE, applied, changed, codes, lines, mode
 from matrix.workbooks import columns, edited, signal_rows
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.read.matrix import read_matrix
-from dbcspec.write_spec import propose_spec
+from dbcspec.matrix.read import read_matrix
+from dbcspec.spec.write import propose_spec
 from typedcan.model.protocol import Message, Protocol, SendType, Signal
 
 

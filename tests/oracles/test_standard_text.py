@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from dbcspec.project import Project
-from dbcspec.rows import Spec
-from dbcspec.spec_folder import read_spec
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.rows import Spec
 from typedcan.model.protocol import Protocol
 
 LOST_IN_PRINT = {

@@ -16,11 +16,11 @@ from dbcspec.commands.common import (
     source_protocol,
 )
 from dbcspec.compare.run import RULES, compare
-from dbcspec.emit.matrix import emit_matrix
 from dbcspec.emit.spec import emit_spec
+from dbcspec.matrix.read import read_matrix
+from dbcspec.matrix.write import emit_matrix
 from dbcspec.read.doors import open_side
-from dbcspec.read.matrix import read_matrix
-from dbcspec.write_spec import propose_spec
+from dbcspec.spec.write import propose_spec
 from typedcan.model.errors import ReadError
 from typedcan.report.item import Report
 from typedcan.shell.console import note, say

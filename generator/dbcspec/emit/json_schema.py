@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
-from dbcspec.schema import Record, json_schema
+from dbcspec.spec.schema import Record, json_schema
 
 
 def emit_json_schemas(documents: Mapping[str, type[Record]]) -> dict[str, str]:

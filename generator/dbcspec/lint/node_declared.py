@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 from dbcspec.lint.places import node_names
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.rows import Spec
+from dbcspec.spec.rows import Spec
 from typedcan.model.errors import Location
 from typedcan.model.protocol import NOWHERE, Protocol
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dbcspec.lint.rule import Subject
-from dbcspec.rows import SignalRow, Spec
+from dbcspec.spec.rows import SignalRow, Spec
 from typedcan.model.errors import Location
 from typedcan.model.protocol import NOWHERE, Message, Protocol, Signal, ValueTable
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.rows import SignalRow
+from dbcspec.spec.rows import SignalRow
 
 
 def _check(subject: Subject) -> Iterator[Found]:

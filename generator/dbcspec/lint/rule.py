@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dbcspec.errors import Fault
-from dbcspec.rows import Spec
+from dbcspec.spec.rows import Spec
 from typedcan.model.errors import Location
 from typedcan.model.protocol import NOWHERE, Protocol
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from dbcspec.lint.places import node_names
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.rows import FieldRow, MessageRow, SignalRow, Spec
+from dbcspec.spec.rows import FieldRow, MessageRow, SignalRow, Spec
 
 
 def _check(subject: Subject) -> Iterator[Found]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from dbcspec.lint.places import node_names
 from dbcspec.lint.rule import Found, Rule, Subject
-from dbcspec.rows import SignalRow, Spec
+from dbcspec.spec.rows import SignalRow, Spec
 
 _KEYS = ("title", "length", "codes", "factor", "offset", "unit", "range", "route")
 

@@ -8,7 +8,7 @@ from enum import Enum
 
 from dbcspec.lint.places import Places, value_tables
 from dbcspec.lint.rule import Subject
-from dbcspec.rows import Spec
+from dbcspec.spec.rows import Spec
 from typedcan.model.errors import Location
 from typedcan.model.protocol import NOWHERE, Aspect, Protocol
 

@@ -6,10 +6,10 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from dbcspec.compiled import compile_spec
 from dbcspec.errors import Fault
 from dbcspec.read.git import checked_out, split_revision
-from dbcspec.rows import Spec
+from dbcspec.spec.compiled import compile_spec
+from dbcspec.spec.rows import Spec
 from typedcan.databases.dbc import FORMATS, read_any
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
@@ -83,7 +83,7 @@ def _is_folder(path: Path) -> bool:
 
 def _read_matrix(path: Path, title: str) -> Protocol:
     try:
-        from dbcspec.read.matrix import read_matrix
+        from dbcspec.matrix.read import read_matrix
     except ModuleNotFoundError as error:
         raise ReadError(f"a matrix needs {error.name}: pip install 'swapcan[generator]'") from None
     return read_matrix(path, shown_as=title)

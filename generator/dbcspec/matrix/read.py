@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from dbcspec.errors import Fault, SpecError
-from dbcspec.read import matrix_headings as known
-from dbcspec.read.matrix_acting import ACTING_COLUMNS
-from dbcspec.read.matrix_grid import CellValue, Grid, read_grids
-from dbcspec.read.matrix_messages import read_messages
-from dbcspec.read.matrix_row import Row, Sheet, open_sheet
-from dbcspec.read.matrix_signal import SharedTables
-from dbcspec.read.matrix_values import names_of, raw_of, text_of, whole_of
+from dbcspec.matrix import headings as known
+from dbcspec.matrix.acting import ACTING_COLUMNS
+from dbcspec.matrix.grid import CellValue, Grid, read_grids
+from dbcspec.matrix.messages import read_messages
+from dbcspec.matrix.row import Row, Sheet, open_sheet
+from dbcspec.matrix.signal import SharedTables
+from dbcspec.matrix.values import names_of, raw_of, text_of, whole_of
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Aspect, Bus, Erratum, Node, Protocol
 

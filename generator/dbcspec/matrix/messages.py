@@ -7,11 +7,11 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from dbcspec.read.matrix_grid import CellValue
-from dbcspec.read.matrix_headings import normal
-from dbcspec.read.matrix_row import Row, Sheet
-from dbcspec.read.matrix_signal import SharedTables, SignalDraft
-from dbcspec.read.matrix_values import CellError, identifier_of, names_of, text_of, whole_of
+from dbcspec.matrix.grid import CellValue
+from dbcspec.matrix.headings import normal
+from dbcspec.matrix.row import Row, Sheet
+from dbcspec.matrix.signal import SharedTables, SignalDraft
+from dbcspec.matrix.values import CellError, identifier_of, names_of, text_of, whole_of
 from typedcan.model.protocol import Checksum, Counter, Message, SendType, Signal
 
 _MESSAGE_KEYS = ("frame_format", "send_type", "period", "condition", "msg_length", "msg_title")

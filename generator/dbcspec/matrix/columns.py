@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
-from dbcspec.emit.matrix_cells import LONGEST_TEXT, Value, raw_text
+from dbcspec.matrix.cells import LONGEST_TEXT, Value, raw_text
 from typedcan.model.acting import ActingCodes
 from typedcan.model.layout import float_limits
 from typedcan.model.protocol import Aspect, ByteOrder, Code, Message, Protocol, SendType, Signal

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.emit.matrix_cells import A4, Value, fit_to_page, put, put_table, set_widths
+from dbcspec.matrix.cells import A4, Value, fit_to_page, put, put_table, set_widths
 from typedcan.model.protocol import Aspect, Protocol
 
 _COVER_LINE = 62

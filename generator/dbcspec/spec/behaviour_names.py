@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from dbcspec.errors import Fault
-from dbcspec.rows import Spec
+from dbcspec.spec.rows import Spec
 from typedcan.model.protocol import Message
 
 

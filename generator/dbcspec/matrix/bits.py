@@ -11,7 +11,7 @@ from openpyxl.styles import Alignment
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.emit.matrix_cells import A4, BIT_STYLES, fit_to_page, put, set_widths
+from dbcspec.matrix.cells import A4, BIT_STYLES, fit_to_page, put, set_widths
 from typedcan.model.layout import bits
 from typedcan.model.protocol import Message, Protocol, Signal
 

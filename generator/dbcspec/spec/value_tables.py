@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dbcspec.errors import Fault
-from dbcspec.rows import SignalRow, Spec
+from dbcspec.spec.rows import SignalRow, Spec
 from typedcan.model.protocol import Code, ValueTable
 
 _Codes = tuple[tuple[int, str], ...]

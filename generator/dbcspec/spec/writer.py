@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TypeVar
 
 from dbcspec.compare.pairing import MessagePair, SignalPair, pair
-from dbcspec.rows import MessageRow, SignalRow, SignalTable, Spec
-from dbcspec.schema import Record, keys_of
-from dbcspec.spec_differences import ACTS, Difference, differences
-from dbcspec.spec_text import (
+from dbcspec.spec.differences import ACTS, Difference, differences
+from dbcspec.spec.rows import MessageRow, SignalRow, SignalTable, Spec
+from dbcspec.spec.schema import Record, keys_of
+from dbcspec.spec.splice import YamlText, scalar
+from dbcspec.spec.text import (
     SEND_TYPES,
     acts_entry,
     acts_values,
@@ -20,7 +21,6 @@ from dbcspec.spec_text import (
     settled,
     signal_row,
 )
-from dbcspec.splice import YamlText, scalar
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Message, Protocol, Signal
 

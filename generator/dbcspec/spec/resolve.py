@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from decimal import Decimal
 from typing import TypeVar
 
-from dbcspec.behaviour_names import unknown_names
 from dbcspec.errors import Fault, SpecError
-from dbcspec.resolve_acts import acting_codes
-from dbcspec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
-from dbcspec.schema import Record
-from dbcspec.value_tables import ValueTables
+from dbcspec.spec.behaviour_names import unknown_names
+from dbcspec.spec.resolve_acts import acting_codes
+from dbcspec.spec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
+from dbcspec.spec.schema import Record
+from dbcspec.spec.value_tables import ValueTables
 from typedcan.model import protocol as model
 from typedcan.model.acting import usual_start
 from typedcan.model.layout import float_limits, whole_byte

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from dbcspec.errors import Fault
-from dbcspec.read.matrix_grid import CellValue, Grid
-from dbcspec.read.matrix_headings import Table, normal
-from dbcspec.read.matrix_values import CellError, text_of
+from dbcspec.matrix.grid import CellValue, Grid
+from dbcspec.matrix.headings import Table, normal
+from dbcspec.matrix.values import CellError, text_of
 from typedcan.model.errors import Location
 
 T = TypeVar("T")

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 from decimal import Decimal
 
-from dbcspec.read.matrix_grid import CellValue
-from dbcspec.read.matrix_headings import normal
+from dbcspec.matrix.grid import CellValue
+from dbcspec.matrix.headings import normal
 
 _DECIMAL = re.compile(r"[+-]?\d{1,400}(?:\.\d{0,400})?(?:[eE][+-]?\d{1,3})?")
 _HEX = re.compile(r"(?:0[xX])?([0-9A-Fa-f]{1,16})[hH]?")

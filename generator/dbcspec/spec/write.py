@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from dbcspec.errata import apply_errata
 from dbcspec.errors import SpecError
-from dbcspec.resolve import resolve
-from dbcspec.spec_differences import differences
-from dbcspec.spec_folder import read_spec
-from dbcspec.spec_writer import SpecWriter
+from dbcspec.spec.differences import differences
+from dbcspec.spec.errata import apply_errata
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.resolve import resolve
+from dbcspec.spec.writer import SpecWriter
 from typedcan.model.protocol import Protocol
 
 

@@ -14,7 +14,7 @@ from openpyxl import load_workbook
 from openpyxl.utils.cell import range_boundaries
 from openpyxl.utils.exceptions import InvalidFileException
 
-from dbcspec.read.matrix_guard import MOST_CELLS, check_workbook
+from dbcspec.matrix.guard import MOST_CELLS, check_workbook
 from typedcan.model.errors import Location, ReadError
 
 _ESCAPED = re.compile(r"_x(00[01][0-9A-Fa-f]|[Dd][89A-Fa-f][0-9A-Fa-f]{2}|[Ff]{3}[EeFf])_")

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 
-from dbcspec.read.matrix_acting import acting_of
-from dbcspec.read.matrix_grid import CellValue
-from dbcspec.read.matrix_headings import normal
-from dbcspec.read.matrix_row import Row
-from dbcspec.read.matrix_values import (
+from dbcspec.matrix.acting import acting_of
+from dbcspec.matrix.grid import CellValue
+from dbcspec.matrix.headings import normal
+from dbcspec.matrix.row import Row
+from dbcspec.matrix.values import (
     CellError,
     codes_of,
     decimal_of,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dbcspec.read.matrix_grid import CellValue
-from dbcspec.read.matrix_headings import normal
-from dbcspec.read.matrix_row import Row
-from dbcspec.read.matrix_values import CellError, raw_of, raws_of, text_of
+from dbcspec.matrix.grid import CellValue
+from dbcspec.matrix.headings import normal
+from dbcspec.matrix.row import Row
+from dbcspec.matrix.values import CellError, raw_of, raws_of, text_of
 from typedcan.model.acting import ActingCodes
 
 ACTING_COLUMNS = ("acting", "safe", "acts_as", "acting_reference")

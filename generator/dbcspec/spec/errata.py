@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from dbcspec.errors import Fault, SpecError
-from dbcspec.rows import ChangeRow, ErratumRow, SameCodes, SignalRow, Spec
-from dbcspec.schema import Record, expect_table, keys_of
-from dbcspec.source import Items
+from dbcspec.spec.rows import ChangeRow, ErratumRow, SameCodes, SignalRow, Spec
+from dbcspec.spec.schema import Record, expect_table, keys_of
+from dbcspec.spec.source import Items
 
 Edit = Callable[[Any], Any]
 

@@ -11,7 +11,7 @@ from decimal import Decimal
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from dbcspec.errors import Fault, SpecError
-from dbcspec.source import Items, Node, Scalar, Table
+from dbcspec.spec.source import Items, Node, Scalar, Table
 from typedcan.model.errors import Location
 
 _METADATA = "dbcspec"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import ClassVar
 
-from dbcspec.schema import (
+from dbcspec.spec.schema import (
     INTEGER,
     NAME,
     RANGE,

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from dbcspec.errors import Fault
-from dbcspec.read.matrix_grid import Grid
+from dbcspec.matrix.grid import Grid
 
 _LAST_HEADING_ROW = 40
 _CHINESE = re.compile(r"[一-鿿]+")

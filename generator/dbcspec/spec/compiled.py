@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from dbcspec.errata import apply_errata
 from dbcspec.errors import Fault, SpecError
-from dbcspec.resolve import resolve
-from dbcspec.rows import Spec
-from dbcspec.spec_folder import read_spec
+from dbcspec.spec.errata import apply_errata
+from dbcspec.spec.folder import read_spec
+from dbcspec.spec.resolve import resolve
+from dbcspec.spec.rows import Spec
 from typedcan.model.protocol import Protocol
 
 

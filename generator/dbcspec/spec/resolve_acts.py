@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.behaviour_rows import ActsRow
 from dbcspec.errors import Fault
-from dbcspec.rows import Spec
+from dbcspec.spec.behaviour_rows import ActsRow
+from dbcspec.spec.rows import Spec
 from typedcan.model.acting import ActingCodes
 
 

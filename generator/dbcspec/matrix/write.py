@@ -9,9 +9,9 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from dbcspec.emit.matrix_bits import add_bit_sheet, bit_sheet_names
-from dbcspec.emit.matrix_cells import A3, Value, add_styles, fit_to_page, put, set_widths
-from dbcspec.emit.matrix_columns import (
+from dbcspec.matrix.bits import add_bit_sheet, bit_sheet_names
+from dbcspec.matrix.cells import A3, Value, add_styles, fit_to_page, put, set_widths
+from dbcspec.matrix.columns import (
     CODES_HEADING,
     ENGLISH_CODES_HEADING,
     SIGNAL_NAME_HEADING,
@@ -21,8 +21,8 @@ from dbcspec.emit.matrix_columns import (
     node_names,
     role,
 )
-from dbcspec.emit.matrix_sheets import add_cover, add_errata, add_nodes
-from dbcspec.emit.matrix_zip import workbook_bytes
+from dbcspec.matrix.sheets import add_cover, add_errata, add_nodes
+from dbcspec.matrix.workbook import workbook_bytes
 from typedcan.model.protocol import Aspect, Message, Protocol, Signal
 
 COVER, MATRIX, NODES, ERRATA = "封面 Cover", "矩阵 Matrix", "节点与总线 Nodes", "勘误 Errata"

@@ -5,11 +5,11 @@ from __future__ import annotations
 import dataclasses
 from pathlib import Path
 
-from dbcspec.behaviour_rows import Behaviour
 from dbcspec.errors import Fault, SpecError
-from dbcspec.rows import Errata, Messages, SameCodes, SignalRow, SignalTable, Spec, Standard
-from dbcspec.schema import RecordT
-from dbcspec.source import read_yaml
+from dbcspec.spec.behaviour_rows import Behaviour
+from dbcspec.spec.rows import Errata, Messages, SameCodes, SignalRow, SignalTable, Spec, Standard
+from dbcspec.spec.schema import RecordT
+from dbcspec.spec.source import read_yaml
 from typedcan.model.errors import Location
 
 

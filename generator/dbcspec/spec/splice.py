@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import yaml
 
 from dbcspec.errors import SpecError
-from dbcspec.source import Scalar, Table, compose
+from dbcspec.spec.source import Scalar, Table, compose
 from typedcan.model.errors import Location
 
 _BOM = b"\xef\xbb\xbf"

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any, ClassVar
 
-from dbcspec.behaviour_rows import Behaviour
-from dbcspec.schema import (
+from dbcspec.spec.behaviour_rows import Behaviour
+from dbcspec.spec.schema import (
     DECIMAL,
     INTEGER,
     NAME,
@@ -31,7 +31,7 @@ from dbcspec.schema import (
     raw,
     whole_number,
 )
-from dbcspec.source import Node
+from dbcspec.spec.source import Node
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
-from dbcspec.rows import ErratumRow
-from dbcspec.source import Table
-from dbcspec.splice import flow, scalar
+from dbcspec.spec.rows import ErratumRow
+from dbcspec.spec.source import Table
+from dbcspec.spec.splice import flow, scalar
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Message, SendType, Signal
 

@@ -1,0 +1,1 @@
+"""The CAN matrix in Excel: written, and read back."""
