@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from importlib import resources
+from typing import Any, overload
 
 import can
 
@@ -11,7 +12,7 @@ from swapcan._generated.protocol import PROTOCOL
 from typedcan.model.errors import TypedcanError
 from typedcan.wire import codec, link, receiver
 from typedcan.wire import database as databases
-from typedcan.wire.message import Message
+from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protect import Algorithm
 from typedcan.wire.protocol import Protocol
 
@@ -66,7 +67,11 @@ def encode(message: Message, *, counter: int | None = None) -> bytes:
     return _CODEC.encode(message, counter=counter)
 
 
-def decode(frame_id: int, data: bytes, *, verify: bool = True) -> Message:
+@overload
+def decode(frame_id: int, data: bytes, *, verify: bool = True) -> Message: ...
+@overload
+def decode(frame_id: type[MessageT], data: bytes, *, verify: bool = True) -> MessageT: ...
+def decode(frame_id: Any, data: bytes, *, verify: bool = True) -> Any:
     """As `Codec.decode`, with the algorithms that the standard states."""
     return _CODEC.decode(frame_id, data, verify=verify)
 

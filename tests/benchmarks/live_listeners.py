@@ -10,7 +10,7 @@ import cantools
 from cantools.database.can import Database
 
 import swapcan
-from swapcan import Received
+from swapcan import Message, Received
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.node import Node
 
@@ -50,7 +50,7 @@ def _unread(bus: can.BusABC, callback: Callable[[can.Message], None]) -> Iterato
 
 @contextmanager
 def _read(bus: can.BusABC, callback: Callable[[can.Message], None]) -> Iterator[None]:
-    def read(received: Received) -> None:
+    def read(received: Received[Message]) -> None:
         assert received.message
         callback(received.frame)
 

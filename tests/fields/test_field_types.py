@@ -1,4 +1,7 @@
-"""What mypy (strict) and pyright say of values for fields: of the marked lines, and no others."""
+"""What mypy (strict) and pyright say of what users write: of the marked lines, and no others.
+
+Values that are given to fields, what is received of a class that was asked for, and the README.
+"""
 
 from __future__ import annotations
 
@@ -61,26 +64,98 @@ from swapcan import SignalState
 from swapcan.messages import *
 def values(number: int) -> None:
 """
-LINES = [
+VALUES = [
     *HEAD.strip().splitlines(),
     *(f"    {line}" for line in TAKEN.split("\n") if line),
     *(f"    {line}  # wrong" for line in REFUSED.split("\n") if line),
 ]
-WRONG = {place for place, line in enumerate(LINES, start=1) if line.endswith("# wrong")}
+RESULTS = """
+from typing import assert_type
+from swapcan import Codec, Link, Message, Node, PackCode, Pending, Received, SignalState
+from swapcan import StateChanged, Vin, decode
+from swapcan.messages import *
+from typedcan.wire.message import Code2
+Number = float | SignalState
+def link(link: Link) -> None:
+    received = link.receive(B2V_ST2, timeout=0)
+    assert_type(received, Received[B2V_ST2])
+    assert_type(received.kind, type[B2V_ST2])
+    assert_type(received.message.soc, Number)
+    assert_type(link.receive(V2B_CMD).message.hv_on_off, HvCommand | Code2)
+    assert_type(link.receive(), Received[Message])
+    assert_type(link.receive(timeout=None).message, Message)
+    for each in link:
+        assert_type(each, Received[Message])
+    received.message.socc  # wrong
+    received.message.hv_on_off  # wrong
+    link.receive().message.soc  # wrong
+    link.receive(HvCommand)  # wrong
+def decoded(data: bytes, codec: Codec) -> None:
+    assert_type(decode(B2V_ST2, data), B2V_ST2)
+    assert_type(codec.decode(B2V_ST2, data, verify=False).soc, Number)
+    assert_type(decode(0x1882D0F3, data), Message)
+    assert_type(codec.decode(0x1882D0F3, data, extended=True), Message)
+    decode(0x1882D0F3, data).soc  # wrong
+    decode("B2V_ST2", data)  # wrong
+    codec.decode(B2V_ST2, data, extended=True)  # wrong
+def status(received: Received[B2V_ST2]) -> float | None:
+    return received.message.soc if isinstance(received.message.soc, float) else None
+def any_message(received: Received[Message]) -> str:
+    return received.message.soc if isinstance(received.message, B2V_ST2) else ""  # wrong
+async def node(node: Node, received: Received[B2V_ST2]) -> None:
+    last = node.last(B2V_ST2)
+    assert_type(last, Received[B2V_ST2] | None)
+    last.message.soc  # wrong
+    if last:
+        assert_type(last.message.soc, Number)
+    node.on(B2V_ST2, lambda received: print(received.message.soc))
+    node.on(B2V_ST2, lambda received: print(received.message.hv_on_off))  # wrong
+    node.on(B2V_ST2, status)
+    node.on(V2B_CMD, status)  # wrong
+    node.on(B2V_ST2, any_message)
+    node.on(Received, any_message)
+    node.on(StateChanged, lambda event: print(event.new))
+    node.on(StateChanged, lambda event: print(event.message.soc))  # wrong
+    assert_type(node.request_vin(), Pending[Vin])
+    assert_type(await node.request_pack_code(), PackCode)
+    assert_type(node.request_battery_info().result().info1, B2V_BattInfo1)
+    any_message(received)
+    async for event in node.events():
+        if isinstance(event, PackCode):
+            assert_type(event, PackCode)
+        event.soc  # wrong
+"""
+README = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
 @pytest.fixture(scope="module")
-def snippet(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("types") / "snippet.py"
-    path.write_text("\n".join(LINES) + "\n", "utf-8")
-    return path
+def files(tmp_path_factory: pytest.TempPathFactory, root: Path) -> Path:
+    """A folder with what is to be checked: one process checks all of it."""
+    folder = tmp_path_factory.mktemp("types")
+    (folder / "values.py").write_text("\n".join(VALUES) + "\n", "utf-8")
+    (folder / "results.py").write_text(RESULTS.lstrip(), "utf-8")
+    for number, snippet in enumerate(README.findall((root / "README.md").read_text("utf-8"))):
+        (folder / f"readme_{number}.py").write_text(snippet, "utf-8")
+    paths = {"extraPaths": [(root / "src").as_posix()], "include": ["*.py"]}
+    (folder / "pyrightconfig.json").write_text(json.dumps(paths), "utf-8")
+    return folder
 
 
-def output(snippet: Path, root: Path, *arguments: str) -> str:
-    """What a checker of this environment prints of the snippet."""
+def wrong(folder: Path) -> set[tuple[str, int]]:
+    """The marked lines: file and number."""
+    return {
+        (path.name, number)
+        for path in folder.glob("*.py")
+        for number, line in enumerate(path.read_text("utf-8").splitlines(), start=1)
+        if line.endswith("# wrong")
+    }
+
+
+def output(folder: Path, root: Path, *arguments: str) -> str:
+    """What a checker of this environment prints."""
     return subprocess.run(
-        [sys.executable, "-m", *arguments, snippet.name],
-        cwd=snippet.parent,
+        [sys.executable, "-m", *arguments],
+        cwd=folder,
         env={**os.environ, "MYPYPATH": str(root / "src")},
         capture_output=True,
         text=True,
@@ -88,18 +163,21 @@ def output(snippet: Path, root: Path, *arguments: str) -> str:
     ).stdout
 
 
-def test_mypy_reports_the_wrong_values_and_nothing_else(snippet: Path, root: Path) -> None:
-    said = output(snippet, root, "mypy", "--strict", "--config-file=", "--cache-dir=cache")
-    lines = re.findall(r"^snippet\.py:(\d+): error", said, re.MULTILINE)
-    assert set(map(int, lines)) == WRONG, said
+def test_mypy_reports_the_wrong_lines_and_nothing_else(files: Path, root: Path) -> None:
+    names = sorted(path.name for path in files.glob("*.py"))
+    assert len(names) > 2, "the README has snippets"
+    said = output(files, root, "mypy", "--strict", "--config-file=", "--cache-dir=cache", *names)
+    found = re.findall(r"^(\w+\.py):(\d+): error", said, re.MULTILINE)
+    assert {(name, int(line)) for name, line in found} == wrong(files), said
 
 
-def test_pyright_reports_the_wrong_values_and_nothing_else(snippet: Path, root: Path) -> None:
-    paths = json.dumps({"extraPaths": [(root / "src").as_posix()], "include": ["snippet.py"]})
-    (snippet.parent / "pyrightconfig.json").write_text(paths, "utf-8")
+def test_pyright_reports_the_wrong_lines_and_nothing_else(files: Path, root: Path) -> None:
     said = output(
-        snippet, root, "pyright", "--outputjson", f"--pythonpath={sys.executable}", "--project=."
+        files, root, "pyright", "--outputjson", f"--pythonpath={sys.executable}", "--project=."
     )
-    found = json.loads(said)["generalDiagnostics"]
-    lines = {each["range"]["start"]["line"] + 1 for each in found if each["severity"] == "error"}
-    assert lines == WRONG, said
+    found = {
+        (Path(each["file"]).name, each["range"]["start"]["line"] + 1)
+        for each in json.loads(said)["generalDiagnostics"]
+        if each["severity"] == "error"
+    }
+    assert found == wrong(files), said

@@ -147,7 +147,7 @@ def test_leaving_does_not_hold_up_the_event_loop(near: can.BusABC) -> None:
 def test_a_callback_that_raises_is_logged_and_stops_nothing(
     near: can.BusABC, far: can.BusABC, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def fail(received: Received) -> None:
+    def fail(received: Received[B2V_ST2]) -> None:
         raise ZeroDivisionError
 
     heard = Recorder()
@@ -166,7 +166,7 @@ def test_a_callback_can_stop_its_node(near: can.BusABC, far: can.BusABC) -> None
     node = Node(PROTOCOL, "VCU", far)
     stopped = threading.Event()
 
-    def stop(received: Received) -> None:
+    def stop(received: Received[B2V_ST2]) -> None:
         node.stop()
         stopped.set()
 
@@ -215,9 +215,13 @@ def test_an_expected_message_is_missed_and_lost_on_time(near: can.BusABC, far: c
 
 
 def test_the_commands_of_a_callback_go_out(near: can.BusABC, far: can.BusABC) -> None:
+    def follow(received: Received[B2V_ST2]) -> None:
+        assert isinstance(received.message.soc, float)
+        vcu.set(V2B_CMD(vehicle_speed=received.message.soc))
+
     heard = Recorder()
     with Node(PROTOCOL, "BMU", near) as bmu, Node(PROTOCOL, "VCU", far) as vcu:
-        vcu.on(B2V_ST2, lambda received: vcu.set(V2B_CMD(vehicle_speed=received.message.soc)))  # type: ignore[attr-defined]
+        vcu.on(B2V_ST2, follow)
         bmu.on(V2B_CMD, heard)
         bmu.set(B2V_ST2(soc=42.0))
         assert heard.wait()[0].message.vehicle_speed == 42.0

@@ -10,8 +10,23 @@ import pytest
 from can.interfaces.virtual import VirtualBus
 from runtime.frames import FOREIGN, ST2, frame, st1
 
-from swapcan import Counts, Fault, Link, ReceiveTimeoutError, SignalState
+from swapcan import (
+    Counts,
+    Fault,
+    Link,
+    Message,
+    ReceiveTimeoutError,
+    SignalState,
+    UnknownMessageError,
+)
 from swapcan.messages import B2V_ST1, B2V_ST2
+
+
+class OtherMessage(Message):
+    """A message of a protocol that this is not."""
+
+    NAME = "Other"
+    FRAME_ID = 0x1234
 
 
 def test_a_frame_is_received_as_a_message_with_its_frame(near: can.BusABC, far: can.BusABC) -> None:
@@ -24,6 +39,27 @@ def test_a_frame_is_received_as_a_message_with_its_frame(near: can.BusABC, far: 
     assert message.current == pytest.approx(-120.5)
     assert received.frame.data == ST2
     assert received.faults == ()
+
+
+def test_of_a_class_that_is_asked_for_the_next_one_is_taken_and_others_are_skipped(
+    near: can.BusABC, far: can.BusABC
+) -> None:
+    faults: list[Fault] = []
+    link = Link(near, on_fault=faults.append)
+    for each in (st1(0), frame(0x1882D0F3, b""), st1(2), frame(0x1882D0F3, ST2), st1(3)):
+        far.send(each)
+    assert link.receive(B2V_ST2).message.soc == pytest.approx(80.0)
+    assert [fault.kind for fault in faults] == ["length", "counter"]
+    assert link.counts == Counts(received=3, length=1, counter=1)
+    assert link.receive(B2V_ST1).message.aliv == 3
+    with pytest.raises(ReceiveTimeoutError):
+        link.receive(B2V_ST1, timeout=0)
+
+
+def test_of_a_class_of_another_protocol_none_is_waited_for(near: can.BusABC) -> None:
+    for other in (OtherMessage, Message, int):
+        with pytest.raises(UnknownMessageError, match=r"is no message class of caamtb-swap$"):
+            Link(near).receive(other, timeout=None)  # type: ignore[type-var]
 
 
 @pytest.mark.parametrize("foreign", FOREIGN.values(), ids=FOREIGN)

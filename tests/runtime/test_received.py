@@ -6,12 +6,13 @@ import can
 import cantools
 import pytest
 from cantools.database.can import Database
+from defaults import default_of
 from hypothesis import given
 from hypothesis import strategies as st
 
 import swapcan
-from swapcan import Codec, Received
-from swapcan.messages import B2V_ST2, B2V_ST3
+from swapcan import ChecksumError, Codec, DecodeError, LengthError, Message, Received
+from swapcan.messages import B2V_ST1, B2V_ST2, B2V_ST3, MESSAGES
 from swapcan.wire import Receiver
 
 DATABASE = cantools.database.load_string(swapcan.dbc_text(), "dbc")
@@ -23,7 +24,7 @@ def soc(raw: int) -> can.Message:
     return can.Message(arbitration_id=B2V_ST2.FRAME_ID, data=data)
 
 
-def taken(receiver: Receiver, frame: can.Message) -> Received:
+def taken(receiver: Receiver, frame: can.Message) -> Received[Message]:
     """What a receiver makes of a frame that is in order."""
     received = receiver.take(frame)
     assert isinstance(received, Received)
@@ -78,3 +79,29 @@ def test_few_messages_are_kept() -> None:
     for number in range(10_000):
         codec.decode(B2V_ST2.FRAME_ID, number.to_bytes(8, "big"))
     assert len(codec.readers[B2V_ST2.FRAME_ID]._decoded) <= 256
+
+
+def test_the_payload_of_a_class_is_decoded_as_a_frame_with_its_identifier_is() -> None:
+    data = bytes(soc(50).data)
+    assert swapcan.decode(B2V_ST2, data) == swapcan.decode(B2V_ST2.FRAME_ID, data)
+    assert swapcan.decode(B2V_ST2, data).soc == 20.0
+    wrong = bytes.fromhex("0029400000000000")
+    assert swapcan.decode(B2V_ST1, wrong, verify=False).aliv == 9
+
+
+def test_a_payload_that_is_none_of_the_class_is_a_decode_error() -> None:
+    with pytest.raises(LengthError, match=r"B2V_ST2 has 8 bytes, the frame has 7$"):
+        swapcan.decode(B2V_ST2, bytes(7))
+    with pytest.raises(ChecksumError, match=r"B2V_ST1 has checksum 0x00, its bytes make 0x69$"):
+        swapcan.decode(B2V_ST1, bytes.fromhex("0029400000000000"))
+    for other in (Message, int):
+        with pytest.raises(
+            DecodeError, match=r"^frame 0x00000000 \[00\]: .+ is no message class of"
+        ):
+            swapcan.decode(other, bytes(1))  # type: ignore[type-var]
+
+
+def test_every_message_is_decoded_by_its_class() -> None:
+    for kind in MESSAGES:
+        data = swapcan.Codec().encode(default_of(kind), renew=True)
+        assert type(swapcan.decode(kind, data)) is kind

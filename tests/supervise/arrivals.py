@@ -10,6 +10,7 @@ from cantools.database.can import Database
 
 from swapcan.wire import Receiver
 from typedcan.wire.link import Fault, Received
+from typedcan.wire.message import Message
 
 DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"
 XOR_IN_BYTE_0 = {"V2B_CMD", "V2B_RQData", "B2V_ST1", "B2V_SysCode1"}
@@ -38,7 +39,7 @@ def frame(message: str, timestamp: float = 0.0, **raw: int) -> can.Message:
     return can.Message(arbitration_id=known.frame_id, data=data, timestamp=timestamp)
 
 
-def received(message: str, timestamp: float = 0.0, **raw: int) -> Received:
+def received(message: str, timestamp: float = 0.0, **raw: int) -> Received[Message]:
     """The same as a receiver hands it on; counters are not checked."""
     taken = Receiver().take(frame(message, timestamp, **raw))
     assert isinstance(taken, Received)

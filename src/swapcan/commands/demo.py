@@ -18,6 +18,7 @@ from typedcan.shell.command_line import Command
 from typedcan.shell.console import note, say, seconds
 from typedcan.wire.errors import ReceiveTimeoutError
 from typedcan.wire.link import Received
+from typedcan.wire.message import Message
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -63,7 +64,7 @@ def _hear(listeners: list[Link], traffic: Traffic) -> None:
             traffic.add(received)
 
 
-def _arrived(link: Link) -> Received | None:
+def _arrived(link: Link) -> Received[Message] | None:
     try:
         return link.receive(timeout=0)
     except ReceiveTimeoutError:

@@ -39,7 +39,7 @@ class Traffic:
         """How many there were."""
         return sum(seen.frames for seen in self.kinds.values())
 
-    def add(self, received: Received) -> None:
+    def add(self, received: Received[Message]) -> None:
         """Take one message into account."""
         message, time = received.message, received.frame.timestamp
         seen = self.kinds.setdefault(type(message), _Seen(message))

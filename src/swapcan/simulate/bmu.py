@@ -187,10 +187,10 @@ class Bmu(Participant):
     def _make(self, make: Callable[[PackStatus], Iterable[Message]]) -> Iterable[Message]:
         return make(self.state)
 
-    def _obey(self, received: Received) -> None:
+    def _obey(self, received: Received[V2B_CMD]) -> None:
         """Take a command; one whose counter stands still is no fresh one."""
         stale = any(fault.counter in ("repeated", "invalid") for fault in received.faults)
-        if isinstance(received.message, V2B_CMD) and not stale:
+        if not stale:
             self._command = received.message
             self._command_at = self.node.clock.now()
 

@@ -137,8 +137,8 @@ class Chg(Participant):
             return 0.0, 0.0
         return min(current, largest), min(voltage, _LARGEST_VOLTAGE)
 
-    def _obey(self, received: Received) -> None:
-        if isinstance(received.message, B2C_Charger) and self.connected:
+    def _obey(self, received: Received[B2C_Charger]) -> None:
+        if self.connected:
             self._wanted = received.message
             self._deaf = False
 

@@ -98,10 +98,9 @@ class Tms(Participant):
             and self._wanted.reqst_tms_hv_on == HvRequest.REQUEST_HV_ON
         )
 
-    def _obey(self, received: Received) -> None:
-        if isinstance(received.message, BMS_TMS_0):
-            self._wanted = received.message
-            self._alone = False
+    def _obey(self, received: Received[BMS_TMS_0]) -> None:
+        self._wanted = received.message
+        self._alone = False
 
     def _watch(self, event: StateChanged) -> None:
         if event.message is BMS_TMS_0 and event.new is State.LOST:

@@ -37,7 +37,7 @@ from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
-from typedcan.wire.message import SignalState
+from typedcan.wire.message import Message, SignalState
 
 VIN = "LDEMTRCK0R0000025"
 """Of the simulated truck."""
@@ -197,10 +197,8 @@ class Vcu(Participant):
             part * self._voltage * _number(last, "max_lmt_chg_curr"),
         )
 
-    def _see_status(self, received: Received) -> None:
+    def _see_status(self, received: Received[B2V_ST1]) -> None:
         status = received.message
-        if not isinstance(status, B2V_ST1):
-            return
         before = self.states[-1] if self.states else None
         if status.bms != before:
             self.states.append(status.bms)
@@ -212,8 +210,8 @@ class Vcu(Participant):
         elif self.mode is not Mode.OFF and self._level == FaultLevel.LEVEL3_MOST_SEVERE_FAULT:
             self._off("the BMU reports a fault of level 3")
 
-    def _see_request(self, received: Received) -> None:
-        asked = getattr(received.message, "hv_off", None) == HvOffRequest.REQUEST_HV_OFF
+    def _see_request(self, received: Received[B2V_RQ]) -> None:
+        asked = received.message.hv_off == HvOffRequest.REQUEST_HV_OFF
         if asked and self.mode is not Mode.OFF:
             self._off("the BMU asks for high voltage off")
 
@@ -246,7 +244,7 @@ class Vcu(Participant):
         )
 
 
-def _number(received: Received | None, field: str) -> float:
+def _number(received: Received[Message] | None, field: str) -> float:
     """A physical value of the last message of a kind; 0 where there is none."""
     value = getattr(received.message, field) if received else 0.0
     return 0.0 if isinstance(value, SignalState) else float(value)

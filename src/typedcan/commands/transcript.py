@@ -95,7 +95,7 @@ class Transcript:
         )
 
 
-def text_line(taken: Received | Fault, width: int = 0) -> str:
+def text_line(taken: Received[Message] | Fault, width: int = 0) -> str:
     """A message with its values, or the fault, for people; names take so many characters."""
     frame = taken.frame
     channel = "-" if frame.channel is None else frame.channel
@@ -115,12 +115,12 @@ def values_text(message: Message) -> list[str]:
     ]
 
 
-def json_line(taken: Received | Fault) -> str:
+def json_line(taken: Received[Message] | Fault) -> str:
     """A message or a fault as JSON, in the shape that this module describes."""
     return json.dumps(json_object(taken), allow_nan=False)
 
 
-def json_object(taken: Received | Fault) -> dict[str, Any]:
+def json_object(taken: Received[Message] | Fault) -> dict[str, Any]:
     """The same as plain data."""
     frame = taken.frame
     channel = frame.channel

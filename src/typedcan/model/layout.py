@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from decimal import Decimal
 
 from typedcan.model.protocol import ByteOrder, ReservedBits, Signal
@@ -36,6 +36,16 @@ def first_bit(signal: Signal) -> int:
     """Where a signal begins, counted as its byte order counts: Motorola bytes from their top."""
     from_left = 8 * (signal.start // 8) + 7 - signal.start % 8
     return signal.start if signal.byte_order is ByteOrder.INTEL else from_left
+
+
+def bits_reader(signal: Signal, length: int) -> Callable[[bytes], int]:
+    """What reads the bits of one signal, as an unsigned number, in a payload of so many bytes."""
+    mask = (1 << signal.length) - 1
+    if signal.byte_order is ByteOrder.INTEL:
+        low = signal.start
+        return lambda data: int.from_bytes(data, "little") >> low & mask
+    below = 8 * length - first_bit(signal) - signal.length
+    return lambda data: int.from_bytes(data, "big") >> below & mask
 
 
 def whole_byte(signal: Signal) -> int | None:

@@ -26,7 +26,7 @@ _ENDED_PERIODS = 5
 class Seen(NamedTuple):
     """A message that came, and the second at which it did."""
 
-    received: Received
+    received: Received[Message]
     at: float
 
 

@@ -127,7 +127,9 @@ class Watch:
             last=last,
         )
 
-    def _take_message(self, received: Received, now: float) -> tuple[WatchEvent | Fault, ...]:
+    def _take_message(
+        self, received: Received[Message], now: float
+    ) -> tuple[WatchEvent | Fault, ...]:
         message = received.message
         self._last[type(message)] = Seen(received, now)
         events = (*received.faults, *self._supervisor.take(received, now))

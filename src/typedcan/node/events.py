@@ -92,7 +92,7 @@ class Overrun:
 
 
 Event = (
-    Received
+    Received[Message]
     | Fault
     | SupervisionEvent
     | Problem

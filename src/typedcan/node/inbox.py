@@ -18,7 +18,7 @@ from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 from typedcan.wire.receiver import Receiver
 
-Hearer = Callable[[Received, float], object]
+Hearer = Callable[[Received[Message], float], object]
 """Takes a message and the second at which it came."""
 
 
@@ -52,7 +52,7 @@ class Inbox:
         self._transfers = transfers
         self._in_transfers = _in_transfers(protocol)
         self._hearers = hearers
-        self._last: dict[type[Message], Received] = {}
+        self._last: dict[type[Message], Received[Message]] = {}
         self._lock = threading.Lock()
 
     @property
@@ -95,7 +95,7 @@ class Inbox:
                 problems = self._transfers.expire(now)
             self._emit_all(problems)
 
-    def last(self, kind: type[Message]) -> Received | None:
+    def last(self, kind: type[Message]) -> Received[Message] | None:
         """The message of a kind that came last."""
         return self._last.get(kind)
 
@@ -113,7 +113,7 @@ class Inbox:
         """What a transfer lacks to be complete."""
         return self._transfers.missing(transfer)
 
-    def _take_message(self, received: Received, now: float) -> bool:
+    def _take_message(self, received: Received[Message], now: float) -> bool:
         kind = received.kind
         with self._lock:
             events = self._supervisor.take(received, now)

@@ -19,7 +19,7 @@ from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.codec import Codec
 from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Counts, Received
-from typedcan.wire.message import Message
+from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protocol import Protocol
 
 EventT = TypeVar("EventT")
@@ -161,7 +161,7 @@ class Node(Running):
 
     @overload
     def on(
-        self, kind: type[Message], callback: Callable[[Received], object]
+        self, kind: type[MessageT], callback: Callable[[Received[MessageT]], object]
     ) -> Callable[[], None]: ...
     @overload
     def on(
@@ -185,9 +185,10 @@ class Node(Running):
         """
         return self._engine.dispatcher.stream(limit)
 
-    def last(self, kind: type[Message]) -> Received | None:
+    def last(self, kind: type[MessageT]) -> Received[MessageT] | None:
         """The message of a kind that came last, if any."""
-        return self._inbox.last(kind)
+        received: Received[Any] | None = self._inbox.last(kind)
+        return received
 
     def state(self, kind: type[Message]) -> State:
         """How regularly a message comes in."""

@@ -60,7 +60,7 @@ class RequestHearer:
         self._ask = ask
         self._withdraw = withdraw
 
-    def __call__(self, received: Received, now: float) -> None:  # noqa: ARG002 - a Hearer
+    def __call__(self, received: Received[Message], now: float) -> None:  # noqa: ARG002 - a Hearer
         """Take the message with the request."""
         code = getattr(received.message, self._request.field.field)
         for answer in self._request.answers:
@@ -144,7 +144,7 @@ class Requests:
         future.add_done_callback(lambda _: self._withdraw(conversation))
         return Pending(future)
 
-    def hear(self, received: Received, now: float) -> None:
+    def hear(self, received: Received[Message], now: float) -> None:
         """Take a message that may be an answer."""
         if not self._under_way:
             return

@@ -92,7 +92,9 @@ class Parts:
         self._onsets = onsets
         self._parts: dict[int, _Part] = {}  # by the bits that number them
 
-    def take(self, received: Received, now: float, stamp: float) -> list[SignalChanged] | None:
+    def take(
+        self, received: Received[Message], now: float, stamp: float
+    ) -> list[SignalChanged] | None:
         """Measure a frame; what changed in its signals.
 
         Raises `LookupError` where the frame cannot be told apart from others.

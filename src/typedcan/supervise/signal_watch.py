@@ -94,7 +94,7 @@ class Signals:
         self._bits: int | None = None
         self._active: dict[str, _Active] = {}
 
-    def take(self, received: Received, now: float) -> list[SignalChanged] | None:
+    def take(self, received: Received[Message], now: float) -> list[SignalChanged] | None:
         """What changed with this payload; None where nothing did."""
         if received.data == self._data:
             return None

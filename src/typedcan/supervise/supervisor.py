@@ -105,7 +105,7 @@ class Supervisor:
             tracked.wait_from(now)
         self._next = min(self._next, tracked.deadline)
 
-    def take(self, received: Received, now: float) -> tuple[SupervisionEvent, ...]:
+    def take(self, received: Received[Message], now: float) -> tuple[SupervisionEvent, ...]:
         """What a message changes that came in; its faults are counted."""
         tracked = self._tracked.get(received.kind)
         if tracked is None:

@@ -97,7 +97,9 @@ class TrackedMessage:
         is_lost = now >= max(self.last, self._waiting_since) + self.timeout
         return self._go(State.LOST if is_lost else State.LATE, now, now - self.last)
 
-    def take(self, received: Received, now: float, stamp: float) -> tuple[SupervisionEvent, ...]:
+    def take(
+        self, received: Received[Message], now: float, stamp: float
+    ) -> tuple[SupervisionEvent, ...]:
         """A message came in its frame; ``stamp`` is the frame's timestamp."""
         elapsed = now - self.last
         measured = time_between(stamp, self._stamp, elapsed)
@@ -145,7 +147,7 @@ class TrackedMessage:
         )
 
     def _take_part(
-        self, parts: Parts, received: Received, now: float, stamp: float
+        self, parts: Parts, received: Received[Message], now: float, stamp: float
     ) -> tuple[SupervisionEvent, ...]:
         try:
             return tuple(parts.take(received, now, stamp) or ())

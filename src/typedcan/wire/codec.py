@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
+from typing import Any, overload
 
 import can
 
 from typedcan.wire.acting import safe_codes
-from typedcan.wire.database import Database, Entry, database
-from typedcan.wire.errors import UnknownFrameError
-from typedcan.wire.message import Message
+from typedcan.wire.database import Database, database
+from typedcan.wire.errors import DecodeError, UnknownFrameError, UnknownMessageError
+from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from typedcan.wire.protocol import Protocol
 from typedcan.wire.reader import Reader
@@ -41,17 +42,29 @@ class Codec:
         return database(self.protocol)
 
     @cached_property
+    def _by_type(self) -> Mapping[type[Message], Reader]:
+        entries = self._database.by_type
+        return {kind: Reader(entry, self._algorithms) for kind, entry in entries.items()}
+
+    @cached_property
     def readers(self) -> Mapping[int, Reader]:
         """What checks and decodes the payloads of each message with a 29-bit identifier."""
-        return self._readers(self._database.extended)
+        entries = self._database.extended.items()
+        return {number: self._by_type[entry.type] for number, entry in entries}
 
     @cached_property
     def standard_readers(self) -> Mapping[int, Reader]:
         """The same for 11-bit identifiers: one number in both widths is two messages."""
-        return self._readers(self._database.standard)
+        entries = self._database.standard.items()
+        return {number: self._by_type[entry.type] for number, entry in entries}
 
-    def _readers(self, entries: Mapping[int, Entry]) -> Mapping[int, Reader]:
-        return {number: Reader(entry, self._algorithms) for number, entry in entries.items()}
+    def reader(self, kind: type[Message]) -> Reader:
+        """The same for a message class; raises `UnknownMessageError`."""
+        reader = self._by_type.get(kind)
+        if reader is None:
+            name = getattr(kind, "NAME", kind)
+            raise UnknownMessageError(f"{name} is no message class of {self.protocol.name}")
+        return reader
 
     def encode(
         self,
@@ -83,23 +96,44 @@ class Codec:
             return sealed(kind, data, self._algorithms)
         return data
 
+    @overload
     def decode(
         self, frame_id: int, data: bytes, *, verify: bool = True, extended: bool | None = None
-    ) -> Message:
-        """The message in the payload of a frame.
+    ) -> Message: ...
+    @overload
+    def decode(self, frame_id: type[MessageT], data: bytes, *, verify: bool = True) -> MessageT: ...
+    def decode(
+        self,
+        frame_id: int | type[Message],
+        data: bytes,
+        *,
+        verify: bool = True,
+        extended: bool | None = None,
+    ) -> Any:
+        """The message in the payload of a frame with an identifier, or of a message class.
 
         ``extended`` says whether the identifier has 29 bits or 11; without it that of 29 bits is
         meant where the protocol has both. Raises `UnknownFrameError` for an identifier that it has
-        not, `LengthError` for a payload of another length, and `ChecksumError`, unless ``verify``
-        is False.
+        not, `DecodeError` for such a class, `LengthError` for a payload of another length, and
+        `ChecksumError`, unless ``verify`` is False.
         """
+        if isinstance(frame_id, type):
+            try:
+                reader = self.reader(frame_id)
+            except UnknownMessageError as error:
+                raise DecodeError(getattr(frame_id, "FRAME_ID", 0), data, str(error)) from None
+        else:
+            reader = self._find(frame_id, extended=extended)
+        reader.check(data, verify=verify)
+        return reader.decode(data)
+
+    def _find(self, frame_id: int, *, extended: bool | None) -> Reader:
         reader = None if extended is False else self.readers.get(frame_id)
         if reader is None and not extended:
             reader = self.standard_readers.get(frame_id)
         if reader is None:
             raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
-        reader.check(data, verify=verify)
-        return reader.decode(data)
+        return reader
 
     def decode_frame(self, frame: can.Message, *, verify: bool = True) -> Message:
         """The message in a frame of python-can; raises as `decode`.

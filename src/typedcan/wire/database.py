@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
+from typedcan.model.layout import bits_reader
 from typedcan.wire.message import Message
 from typedcan.wire.packing import Packer, packer_of
 from typedcan.wire.protocol import Protocol
@@ -18,13 +19,13 @@ Decoder = Callable[[Sequence[int]], Message]
 class Entry:
     """A message class with what packs its bits and what makes it from raw values.
 
-    ``counter`` unpacks the alive counter alone, where there is one.
+    ``counter`` reads the alive counter alone, where there is one.
     """
 
     type: type[Message]
     packer: Packer
     decode: Decoder
-    counter: Packer | None
+    counter: Callable[[bytes], int] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +53,10 @@ def database(protocol: Protocol) -> Database:
 
 
 def _entry(message: type[Message], protocol: Protocol) -> Entry:
-    # Decoders take raw values by position, in the order of the fields.
-    counter = [message.FIELDS[message.COUNTER.field].signal] if message.COUNTER else []
+    counter = message.COUNTER and message.FIELDS[message.COUNTER.field].signal
     return Entry(
         type=message,
         packer=packer_of(message.MODEL),
         decode=protocol.decoders[message],
-        counter=Packer(counter, message.LENGTH) if counter else None,
+        counter=bits_reader(counter, message.LENGTH) if counter else None,
     )

@@ -29,9 +29,13 @@ class DecodeError(TypedcanError, ValueError):
 
 
 class LengthError(DecodeError):
-    """A frame of a known message has not the length that the message has."""
+    """A frame of a known message has not the length that the message has.
+
+    ``brief`` says so in a few words.
+    """
 
     def __init__(self, frame_id: int, data: bytes, message: str, expected: int) -> None:
+        self.brief = f"{len(data)} bytes instead of {expected}"
         self.message = message
         self.expected = expected
         problem = f"{message} has {expected} bytes, the frame has {len(data)}"
@@ -39,12 +43,13 @@ class LengthError(DecodeError):
 
 
 class ChecksumError(DecodeError):
-    """A frame carries another checksum than its bytes have."""
+    """A frame carries another checksum than its bytes have; ``brief`` says so in a few words."""
 
     def __init__(
         self, frame_id: int, data: bytes, message: str, *, received: int, expected: int
     ) -> None:
         self.message = message
+        self.brief = f"checksum is 0x{received:02X}, the bytes make 0x{expected:02X}"
         self.received = received
         self.expected = expected
         problem = f"{message} has checksum 0x{received:02X}, its bytes make 0x{expected:02X}"

@@ -6,17 +6,17 @@ The bus is lent: nothing here opens, configures or closes one. `can.CanError` pa
 from __future__ import annotations
 
 import asyncio
-import math
 import time
 from collections import deque
 from collections.abc import AsyncGenerator, Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, overload
 
 import can
 
 from typedcan.wire.codec import Codec
 from typedcan.wire.errors import ReceiveTimeoutError
-from typedcan.wire.message import Message
+from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protect import SendCounters
 from typedcan.wire.receiver import Counts, Fault, FaultKind, Received, Receiver
 
@@ -80,30 +80,43 @@ class Link:
         self._sent.advance(kind)
         return frame
 
-    def receive(self, timeout: float | None = 1.0) -> Received:
-        """Wait for the next message and return it.
+    @overload
+    def receive(self, *, timeout: float | None = 1.0) -> Received[Message]: ...
+    @overload
+    def receive(
+        self, kind: type[MessageT], *, timeout: float | None = 1.0
+    ) -> Received[MessageT]: ...
+    def receive(
+        self, kind: type[Message] | None = None, *, timeout: float | None = 1.0
+    ) -> Received[Any]:
+        """Wait for the next message, or the next one of a class, and return it.
 
-        Foreign frames are skipped, frames with a wrong length or checksum reported and skipped; a
-        wrong counter is reported, and the message returned with that fault. ``timeout`` is in
-        seconds; None waits for ever, 0 takes what has arrived. Raises `ReceiveTimeoutError`, also
-        where frames arrive but no message among them, and `can.CanError`.
+        Foreign frames and messages of other classes are skipped, frames with a wrong length or
+        checksum reported and skipped; a wrong counter is reported, and the message returned with
+        that fault. ``timeout`` is in seconds; None waits for ever, 0 takes what has arrived. Raises
+        `ReceiveTimeoutError`, also where frames arrive but no such message among them,
+        `UnknownMessageError` for a class that is none of the protocol's, and `can.CanError`.
         """
-        deadline = time.monotonic() + (math.inf if timeout is None else timeout)
+        if kind is not None:
+            self._codec.reader(kind)
+        start = time.monotonic()
+        wait = _WAIT if timeout is None or timeout >= _WAIT else max(timeout, 0.0)
         while True:
-            left = deadline - time.monotonic()
-            frame = self._next_frame(min(max(left, 0.0), _WAIT))
-            received = self._take(frame) if frame else None
-            if received:
+            frame = self._next_frame(wait)
+            received = None if frame is None else self._take(frame)
+            if received is not None and (kind is None or received.kind is kind):
                 return received
-            drained = frame is None or timeout != 0
-            if timeout is not None and drained and time.monotonic() >= deadline:
-                raise ReceiveTimeoutError(timeout)
+            if timeout is not None:
+                left = timeout - (time.monotonic() - start)
+                if left <= 0 and (frame is None or timeout != 0):
+                    raise ReceiveTimeoutError(timeout)
+                wait = min(max(left, 0.0), _WAIT)
 
-    def __iter__(self) -> Iterator[Received]:
+    def __iter__(self) -> Iterator[Received[Message]]:
         """Messages as they arrive, until the bus is shut down; raises `can.CanError`."""
         while True:
             try:
-                received = self.receive(_WAIT)
+                received = self.receive(timeout=_WAIT)
             except ReceiveTimeoutError:
                 if self._is_shut_down():
                     return
@@ -115,7 +128,7 @@ class Link:
             else:
                 yield received
 
-    async def listen(self) -> AsyncGenerator[Received, None]:
+    async def listen(self) -> AsyncGenerator[Received[Message], None]:
         """Messages as they arrive, for ``async for``, until the bus is shut down.
 
         A thread waits on the bus, one frame at a time, so that every interface works on every
@@ -153,13 +166,16 @@ class Link:
     def _next_frame(self, timeout: float) -> can.Message | None:
         return self._unread.popleft() if self._unread else self._bus.recv(timeout)
 
-    def _take(self, frame: can.Message) -> Received | None:
+    def _take(self, frame: can.Message) -> Received[Message] | None:
         taken = self._receiver.take(frame)
-        faults = taken.faults if isinstance(taken, Received) else (taken,) if taken else ()
-        if self._on_fault:
-            for fault in faults:
-                self._on_fault(fault)
-        return taken if isinstance(taken, Received) else None
+        if type(taken) is Received:
+            if taken.faults and self._on_fault:
+                for fault in taken.faults:
+                    self._on_fault(fault)
+            return taken
+        if isinstance(taken, Fault) and self._on_fault:
+            self._on_fault(taken)
+        return None
 
     def _is_shut_down(self) -> bool:
         # python-can has no public name for it.

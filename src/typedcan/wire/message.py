@@ -40,6 +40,7 @@ __all__ = [
     "LabelledField",
     "Message",
     "MessageT",
+    "MessageT_co",
     "NumberField",
     "PhysicalField",
     "SignalState",
@@ -123,6 +124,7 @@ class Message:
 
 
 MessageT = TypeVar("MessageT", bound=Message)
+MessageT_co = TypeVar("MessageT_co", bound=Message, covariant=True)
 
 
 def draft_of(message: type[Message]) -> type[Any]:

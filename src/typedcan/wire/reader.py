@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from typedcan.wire.database import Entry
 from typedcan.wire.errors import ChecksumError, LengthError
-from typedcan.wire.message import Message
+from typedcan.wire.message import Checksum, Message
 from typedcan.wire.protect import Algorithm
 
 _KEPT = 256
@@ -22,18 +22,25 @@ class Reader:
         The message.
     algorithms
         Checksum algorithms by name; a checksum of another one is not verified.
+
+    Attributes
+    ----------
+    kind, length
+        The message class, and the bytes that a payload must have.
+    verify, counter
+        What tells whether the checksum in a payload of that length is right, and what reads its
+        alive counter; None where there is none, or none that can be verified.
     """
 
     __slots__ = (
         "_algorithm",
-        "_checksum",
-        "_counter",
-        "_covered",
         "_decode",
         "_decoded",
-        "_length",
         "_unpack",
+        "counter",
         "kind",
+        "length",
+        "verify",
     )
 
     def __init__(self, entry: Entry, algorithms: Mapping[str, Algorithm]) -> None:
@@ -41,28 +48,24 @@ class Reader:
         self._unpack = entry.packer.unpack
         self._decode = entry.decode
         self._decoded: dict[bytes, Message] = {}
-        self._length = kind.LENGTH
-        self._counter = entry.counter
-        checksum = kind.CHECKSUM
-        self._algorithm = algorithms.get(checksum.algorithm) if checksum else None
-        self._checksum = checksum.byte if checksum else 0
-        self._covered = slice(checksum.first_byte, checksum.last_byte + 1) if checksum else slice(0)
+        self.length = kind.LENGTH
+        self.counter = entry.counter
+        self._algorithm = algorithms.get(kind.CHECKSUM.algorithm) if kind.CHECKSUM else None
+        self.verify = _verifier(kind.CHECKSUM, self._algorithm)
 
     def check(self, data: bytes, *, verify: bool = True) -> None:
         """Raise `LengthError`, or `ChecksumError` unless ``verify`` is False."""
-        if len(data) != self._length:
-            raise LengthError(self.kind.FRAME_ID, data, self.kind.NAME, self._length)
-        if self._algorithm and verify:
-            expected, received = self._algorithm(data[self._covered]), data[self._checksum]
-            if received != expected:
-                kind = self.kind
-                raise ChecksumError(
-                    kind.FRAME_ID, data, kind.NAME, received=received, expected=expected
-                )
+        if len(data) != self.length or (verify and self.verify and not self.verify(data)):
+            raise self.refusal(data)
 
-    def counter(self, data: bytes) -> int | None:
-        """The alive counter in a payload of full length; None where the message has none."""
-        return self._counter.unpack(data)[0] if self._counter else None
+    def refusal(self, data: bytes) -> LengthError | ChecksumError:
+        """Why a payload is refused, with a wrong length or else a wrong checksum."""
+        kind, checksum = self.kind, self.kind.CHECKSUM
+        if len(data) != self.length or not checksum or not self._algorithm:
+            return LengthError(kind.FRAME_ID, data, kind.NAME, self.length)
+        expected = self._algorithm(data[checksum.first_byte : checksum.last_byte + 1])
+        received = data[checksum.byte]
+        return ChecksumError(kind.FRAME_ID, data, kind.NAME, received=received, expected=expected)
 
     def decode(self, data: bytes) -> Message:
         """The message in a payload of full length: there is none that cannot be decoded.
@@ -75,3 +78,12 @@ class Reader:
                 self._decoded.clear()
             message = self._decoded[data] = self._decode(self._unpack(data))
         return message
+
+
+def _verifier(
+    checksum: Checksum | None, algorithm: Algorithm | None
+) -> Callable[[bytes], bool] | None:
+    if checksum is None or algorithm is None:
+        return None
+    first, after, byte = checksum.first_byte, checksum.last_byte + 1, checksum.byte
+    return lambda data: algorithm(data[first:after]) == data[byte]

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Generic, Literal
 
 import can
 
 from typedcan.wire.codec import Codec
-from typedcan.wire.errors import ChecksumError, LengthError
-from typedcan.wire.message import Message
+from typedcan.wire.errors import LengthError
+from typedcan.wire.message import Message, MessageT_co
 from typedcan.wire.protect import CounterFault, ReceiveCounters
 from typedcan.wire.reader import Reader
 
 FaultKind = Literal["length", "checksum", "counter"]
+
+_new: Any = object.__new__
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +37,7 @@ class Fault:
         return f"{self.message}: {self.text}"
 
 
-class Received:
+class Received(Generic[MessageT_co]):
     """A message, the frame that it came in, and what was wrong with its counter, if anything.
 
     The message is decoded when it is read for the first time: many a frame is received only to be
@@ -54,33 +56,20 @@ class Received:
     __slots__ = ("_message", "data", "faults", "frame", "kind")
 
     def __init__(
-        self, message: Message, frame: can.Message, faults: tuple[Fault, ...] = ()
+        self, message: MessageT_co, frame: can.Message, faults: tuple[Fault, ...] = ()
     ) -> None:
         self.kind = type(message)
         self.data = bytes(frame.data)
         self.frame = frame
         self.faults = faults
-        self._message: Message | Reader = message
-
-    @classmethod
-    def undecoded(
-        cls, reader: Reader, data: bytes, frame: can.Message, faults: tuple[Fault, ...] = ()
-    ) -> Received:
-        """The message in a payload that its reader has checked."""
-        received = cls.__new__(cls)
-        received.kind = reader.kind
-        received.data = data
-        received.frame = frame
-        received.faults = faults
-        received._message = reader  # noqa: SLF001
-        return received
+        self._message: Any = message  # or the reader that will decode it
 
     @property
-    def message(self) -> Message:
+    def message(self) -> MessageT_co:
         """The message."""
-        message = self._message
-        if isinstance(message, Reader):
-            message = self._message = message.decode(self.data)
+        if type(self._message) is Reader:
+            self._message = self._message.decode(self.data)
+        message: MessageT_co = self._message
         return message
 
     def __eq__(self, other: object) -> bool:
@@ -139,7 +128,7 @@ class Receiver:
         """A snapshot of the counts."""
         return Counts(self._received, **self._counts)
 
-    def take(self, frame: can.Message) -> Received | Fault | None:
+    def take(self, frame: can.Message) -> Received[Message] | Fault | None:
         """The message in a frame, or why a frame of a known message is refused.
 
         None for a foreign frame: an unknown identifier, a remote or an error frame.
@@ -150,23 +139,27 @@ class Receiver:
             self._counts["foreign"] += 1
             return None
         data = bytes(frame.data)
-        try:
-            reader.check(data)
-        except LengthError as error:
-            text = f"{len(error.data)} bytes instead of {error.expected}"
-            return self._fault("length", error.message, text, frame)
-        except ChecksumError as error:
-            text = f"checksum is 0x{error.received:02X}, the bytes make 0x{error.expected:02X}"
-            return self._fault("checksum", error.message, text, frame)
+        if len(data) != reader.length or (reader.verify and not reader.verify(data)):
+            return self._refused(reader, data, frame)
         self._received += 1
-        counter = reader.counter(data)
-        problem = None if counter is None else self._counters.problem(reader.kind, counter)
-        if problem is None:
-            return Received.undecoded(reader, data, frame)
-        self._counts["counter"] += 1
-        fault = Fault("counter", reader.kind.NAME, problem.text, frame, problem.kind)
-        return Received.undecoded(reader, data, frame, (fault,))
+        # What every frame passes through is kept short: no call of a constructor.
+        received: Received[Message] = _new(Received)
+        received.kind = reader.kind
+        received.data = data
+        received.frame = frame
+        received._message = reader  # noqa: SLF001 - of this module
+        received.faults = ()
+        if reader.counter:
+            problem = self._counters.problem(reader.kind, reader.counter(data))
+            if problem is not None:
+                self._counts["counter"] += 1
+                name = reader.kind.NAME
+                received.faults = (Fault("counter", name, problem.text, frame, problem.kind),)
+        return received
 
-    def _fault(self, kind: FaultKind, message: str, text: str, frame: can.Message) -> Fault:
+    def _refused(self, reader: Reader, data: bytes, frame: can.Message) -> Fault:
+        """Why a frame of a known message is refused."""
+        error = reader.refusal(data)
+        kind: FaultKind = "length" if isinstance(error, LengthError) else "checksum"
         self._counts[kind] += 1
-        return Fault(kind, message, text, frame)
+        return Fault(kind, reader.kind.NAME, error.brief, frame)
