@@ -43,12 +43,14 @@ def show(protocol: Protocol, message: Message) -> str:
 
 
 def _head(message: Message) -> Iterator[str]:
-    route = f"{message.sender} > {', '.join(message.receivers)}"
+    route = f"{', '.join(message.senders)} > {', '.join(message.receivers)}"
     when = f"every {message.period} ms" if message.period else "on event"
     yield f"{message.name}  0x{message.frame_id:08X}  {message.length} bytes  {route}  {when}"
     yield from filter(None, (message.english, message.title))
     if message.condition:
         yield f"Sent {message.condition}."
+    if message.is_fd:
+        yield f"{message.frame_kind}."
     if message.checksum:
         check = message.checksum
         covered = f"bytes {check.first_byte} to {check.last_byte}"

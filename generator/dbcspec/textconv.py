@@ -111,7 +111,9 @@ def _message(message: Message, carries: frozenset[Aspect]) -> list[_Fact]:
     facts: list[_Fact] = [
         ("identifier", _Bare(f"0x{message.frame_id:X}, {width}")),
         ("length", message.length),
+        ("frame format", _Bare(message.frame_kind) if message.is_fd else None),
         ("sender", _Bare(message.sender)),
+        *_names("other sender", message.other_senders),
         *_words(message.title, message.english),
         ("condition", message.condition),
     ]

@@ -124,6 +124,7 @@ def test_every_field_of_the_model_is_changed_by_some_mutation(protocol: Protocol
         "Signal.selectors",
         "Signal.errata",
         "Message.errata",
+        "Message.other_senders",
         "Node.other_addresses",
         "Message.signals",
     }

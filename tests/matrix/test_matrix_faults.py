@@ -59,7 +59,6 @@ def test_faulty_cells_are_all_named_with_sheet_row_and_column(tmp_path: Path) ->
         ({"Multiplexing": "m0"}, "no selector"),
         ({"Multiplexing": "perhaps"}, "expected M"),
         ({"Protection": "CRC"}, "Checksum xor"),
-        ({"DASH": "S"}, "two senders"),
         ({"Resolution": "1,5"}, "a number such as"),
         ({"Resolution": "nan"}, "a number such as"),
         ({"Cycle_Time": "#N/A"}, "stands here"),

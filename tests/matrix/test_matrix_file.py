@@ -151,7 +151,7 @@ sys.stdout.buffer.write(emit_matrix(OTHER))
 def test_the_same_spec_gives_the_same_bytes_in_every_process_at_any_time(
     seed: str, seconds: str, root: Path
 ) -> None:
-    folders = [root / "generator", root / "tests"]
+    folders = [root / "src", root / "generator", root / "tests"]
     environment = {
         **os.environ,
         "PYTHONHASHSEED": seed,

@@ -237,7 +237,8 @@ def _roles(old: Protocol, new: Protocol) -> tuple[Callable[[Node], Hashable], ..
         sends: dict[str, set[int]] = {}
         hears: dict[str, set[int]] = {}
         for message in side.messages:
-            sends.setdefault(message.sender, set()).add(message.frame_id)
+            for sender in message.senders or ("",):
+                sends.setdefault(sender, set()).add(message.frame_id)
             for receiver in message.receivers:
                 hears.setdefault(receiver, set()).add(message.frame_id)
         for node in side.nodes:

@@ -27,7 +27,6 @@ NOBODY = "Vector__XXX"
 _EXTENDED = 0x8000_0000
 _FRAME_FORMATS = ("StandardCAN", "ExtendedCAN", "reserved", "J1939PG")
 _FD_FRAME_FORMATS = (*_FRAME_FORMATS, *["reserved"] * 10, "StandardCAN_FD", "ExtendedCAN_FD")
-_LONGEST_CLASSIC = 8
 _SEND_TYPES = tuple(
     {0: "Cyclic", 7: "IfActive", 8: "NoMsgSendType"}.get(index, "NotUsed") for index in range(9)
 )
@@ -60,7 +59,7 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
         protocol=part,
         digest=protocol.digest,
         db_name=(f"{protocol.name}-{bus.name}" if bus else protocol.name).replace("-", "_"),
-        bus_type=_bus_type(part),
+        bus_type="CAN FD" if _has_fd(part) else "CAN",
         bit_rate=rates.pop() if len(rates) == 1 else None,
         attributes=attributes,
         defaults={each.name: each.default for each in attributes},
@@ -120,17 +119,13 @@ def _comments(*, english: bool) -> Callable[[Protocol | Node | Message | Signal]
     return comment
 
 
-def _bus_type(protocol: Protocol) -> str:
-    return "CAN FD" if any(map(_is_fd, protocol.messages)) else "CAN"
-
-
-def _is_fd(message: Message) -> bool:
-    return message.length > _LONGEST_CLASSIC
+def _has_fd(protocol: Protocol) -> bool:
+    return any(message.is_fd for message in protocol.messages)
 
 
 def _frame_format(protocol: Protocol, message: Message) -> int:
     """The index of VFrameFormat: the protocol's own word counts for extended frames."""
-    if _is_fd(message):
+    if message.is_fd:
         return _FD_FRAME_FORMATS.index("ExtendedCAN_FD" if message.extended else "StandardCAN_FD")
     j1939 = protocol.frame_format == "J1939PG"
     extended = "J1939PG" if j1939 else "ExtendedCAN"
@@ -155,7 +150,7 @@ def _attributes(protocol: Protocol, long_names: list[LongName]) -> list[Attribut
     fastest = max([1_000_000, *(bus.bit_rate for bus in protocol.buses)])
     starts = [signal.start_value for _, signal in protocol.signals()]
     lowest, highest = min([0, *starts]), max([_LARGEST_INT, *starts])
-    formats = _FD_FRAME_FORMATS if any(map(_is_fd, messages)) else _FRAME_FORMATS
+    formats = _FD_FRAME_FORMATS if _has_fd(protocol) else _FRAME_FORMATS
     event = _SEND_TYPES[SendType.EVENT.value]
     every = [
         Attribute("", "BusType", "STRING", '"CAN"'),
@@ -167,6 +162,7 @@ def _attributes(protocol: Protocol, long_names: list[LongName]) -> list[Attribut
         Attribute("BO_ ", "GenMsgSendType", _enum(_SEND_TYPES), f'"{event}"', Aspect.PERIODS),
         Attribute("BO_ ", "GenMsgILSupport", _enum(("No", "Yes")), '"Yes"'),
         Attribute("BO_ ", "VFrameFormat", _enum(formats), f'"{formats[0]}"'),
+        *([Attribute("BO_ ", "CANFD_BRS", _enum("01"), '"1"')] if _has_fd(protocol) else []),
         Attribute("SG_ ", "GenSigStartValue", f"INT {lowest} {highest}", "0", Aspect.START_VALUES),
         *(
             Attribute(on, name, "STRING", '""', Aspect.REFERENCES)
@@ -201,7 +197,7 @@ def _on_bus(protocol: Protocol, bus: Bus) -> Protocol:
     messages = tuple(
         dataclasses.replace(message, signals=tuple(map(heard, message.signals)))
         for message in protocol.messages
-        if message.sender in bus.nodes and set(message.receivers) & set(bus.nodes)
+        if set(message.senders) & set(bus.nodes) and set(message.receivers) & set(bus.nodes)
     )
     used = {sig.value_table for message in messages for sig in message.signals}
     return dataclasses.replace(

@@ -49,6 +49,7 @@ def _renamed(
             message,
             name=messages[message.name],
             sender=nodes.get(message.sender, message.sender),
+            other_senders=tuple(nodes.get(name, name) for name in message.other_senders),
             signals=tuple(_signal(each, signals, nodes, tables) for each in message.signals),
         )
         changed.append(new)

@@ -140,7 +140,10 @@ def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator
             ("period", message.period or 0),
             ("byte_order", order.value if order is not usual else None),
             ("extended", ("no", "yes")[message.extended] if message.extended != extended else None),
+            ("fd", "yes" if message.is_fd else None),
+            ("bit_rate_switch", "no" if message.is_fd and not message.bit_rate_switch else None),
             ("sender", message.sender or None if not message.signals else None),
+            ("other_senders", message.other_senders or None),
         ],
     )
     prefixes = (f"{message.name}_", shared_prefix([signal.name for signal in message.signals]))

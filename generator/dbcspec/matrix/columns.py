@@ -52,14 +52,8 @@ def node_names(protocol: Protocol) -> list[str]:
     """The nodes that have a column: the declared ones, then others that send or receive."""
     names = dict.fromkeys(node.name for node in protocol.nodes)
     for message in protocol.messages:
-        names |= dict.fromkeys((message.sender, *message.receivers))
+        names |= dict.fromkeys((*message.senders, *message.receivers))
     return [name for name in names if name]
-
-
-def role(node: str, sender: str, receivers: Sequence[str]) -> str:
-    """S, R, both or nothing."""
-    parts = [letter for letter, there in (("S", node == sender), ("R", node in receivers)) if there]
-    return "/".join(parts)
 
 
 def code_blocks(signal: Signal, *, english: bool) -> list[str]:
@@ -172,10 +166,17 @@ def _id(message: Message, _: Signal | None = None) -> Value:
     return f"0x{message.frame_id:0{8 if message.extended else 3}X}"
 
 
+def _frame_format(message: Message) -> str:
+    width = "Extended" if message.extended else "Standard"
+    if not message.is_fd:
+        return width
+    return f"{width} FD" if message.bit_rate_switch else f"{width} FD, no BRS"
+
+
 COLUMNS: tuple[Column, ...] = (
     Column("报文名称", "Msg Name", 17, _name, _name),
     Column("报文标识符", "Msg ID", 12, _id, _id),
-    Column("帧格式", "Frame Format", 9, lambda msg: "Extended" if msg.extended else "Standard"),
+    Column("帧格式", "Frame Format", 9, _frame_format),
     Column(
         "发送类型", "Send Type", 9, lambda msg: _SEND_TYPES[msg.send_type], needs=Aspect.PERIODS
     ),

@@ -140,8 +140,6 @@ def _message(draft: _MessageDraft, tables: SharedTables) -> Message:
     signals = _demultiplexed(
         draft, [_received(draft, each).signal(tables) for each in draft.signals]
     )
-    if len(draft.senders) > 1:
-        draft.row.fault("msg_name", f"{draft.name} has two senders: {' and '.join(draft.senders)}")
 
     def fact(key: str) -> Row:
         return draft.facts.get(key, draft.row)
@@ -150,6 +148,7 @@ def _message(draft: _MessageDraft, tables: SharedTables) -> Message:
         return fact(key).text(key) if key in draft.facts else ""
 
     extended = fact("frame_format").read("frame_format", _extended, None)
+    is_fd, switched = _fd(text("frame_format"))
     if extended is False and draft.frame_id > 0x7FF:
         fact("frame_format").fault("frame_format", f"0x{draft.frame_id:X} is no 11-bit identifier")
     period = fact("period").read("period", lambda cell: whole_of(cell, 0, _LONGEST_PERIOD), None)
@@ -162,7 +161,10 @@ def _message(draft: _MessageDraft, tables: SharedTables) -> Message:
         frame_id=draft.frame_id,
         extended=draft.frame_id > 0x7FF if extended is None else extended,
         length=_length(draft, fact("msg_length")),
+        is_fd=is_fd,
+        bit_rate_switch=is_fd and switched,
         sender=next(iter(draft.senders), ""),
+        other_senders=tuple(draft.senders)[1:],
         period=period or None,
         send_type=send_type or (SendType.CYCLIC if period else SendType.EVENT),
         condition=text("condition"),
@@ -227,6 +229,12 @@ def _protection(draft: _MessageDraft) -> tuple[Checksum | None, Counter | None]:
             example = "'Checksum xor, bytes 1~7' or 'Counter, modulus 16'"
             signal.row.fault("protection", f"expected {example}, not {text[:40]!r}")
     return checksum, counter
+
+
+def _fd(frame_format: str) -> tuple[bool, bool]:
+    """Whether a frame format is one of CAN FD, and whether it switches the bit rate."""
+    words = re.findall(r"[a-z]+", frame_format.lower())
+    return any(word.endswith("fd") for word in words), "no" not in words
 
 
 def _extended(cell: CellValue) -> bool | None:

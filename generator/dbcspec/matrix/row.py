@@ -17,6 +17,8 @@ T = TypeVar("T")
 
 _ROLES = {
     **dict.fromkeys(("s", "tx", "t", "发", "发送"), "S"),
+    "s2": "2",
+    "s2/r": "2R",
     **dict.fromkeys(("r", "rx", "收", "接收"), "R"),
     **dict.fromkeys(("s/r", "sr", "r/s", "s,r", "tx/rx", "收发"), "SR"),
 }
@@ -91,8 +93,9 @@ class Row:
         return "hex" in self.sheet.headings.get(key, "").lower()
 
     def roles(self) -> tuple[list[str], list[str]]:
-        """The nodes that send and those that receive."""
+        """The nodes that send and those that receive; those that send besides come last."""
         senders: list[str] = []
+        others: list[str] = []
         receivers: list[str] = []
         for node, column in self.sheet.nodes.items():
             cell = self.sheet.grid.cell(self.index, column)
@@ -102,8 +105,9 @@ class Row:
                 self.sheet.faults.append(Fault(cell.where, text))
             elif role:
                 senders += [node] if "S" in role else []
+                others += [node] if "2" in role else []
                 receivers += [node] if "R" in role else []
-        return senders, receivers
+        return senders + others, receivers
 
 
 def open_sheet(table: Table, declared: Iterable[str]) -> Sheet:

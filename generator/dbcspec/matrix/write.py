@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
@@ -19,7 +19,6 @@ from dbcspec.matrix.columns import (
     code_blocks,
     columns_of,
     node_names,
-    role,
 )
 from dbcspec.matrix.sheets import add_cover, add_errata, add_nodes
 from dbcspec.matrix.workbook import workbook_bytes
@@ -102,7 +101,7 @@ class _MatrixSheet:
         values = [column.of_message(message) for column in self._columns]
         self._write(values, "swap_message")
         for number, node in enumerate(self._nodes, start=1 + len(values)):
-            self._role(number, role(node, message.sender, message.receivers), "swap_message")
+            self._role(number, _role_of(node, message, message.receivers), "swap_message")
         if bit_sheet:
             cell = put(self._sheet, self._row, 1, message.name, "swap_message")
             cell.hyperlink = Hyperlink(ref=cell.coordinate, location=f"'{bit_sheet}'!A1")
@@ -113,7 +112,7 @@ class _MatrixSheet:
         for number in (1, 2):
             self._sheet.cell(self._row, number).style = "swap_repeat"
         for number, node in enumerate(self._nodes, start=1 + len(values)):
-            self._role(number, role(node, message.sender, signal.receivers), "swap_text")
+            self._role(number, _role_of(node, message, signal.receivers), "swap_text")
         self._more_codes(signal)
 
     def _more_codes(self, signal: Signal) -> None:
@@ -139,8 +138,18 @@ class _MatrixSheet:
         self._sheet.row_dimensions[self._row].height = min(_TALLEST_ROW, 3 + _LINE_HEIGHT * lines)
 
     def _role(self, column: int, letters: str, style: str) -> None:
-        styles = {"S": "swap_sends", "S/R": "swap_sends", "R": "swap_receives"}
-        put(self._sheet, self._row, column, letters or None, styles.get(letters, style))
+        named = "swap_sends" if "S" in letters else "swap_receives" if letters else style
+        put(self._sheet, self._row, column, letters or None, named)
+
+
+def _role_of(node: str, message: Message, receivers: Sequence[str]) -> str:
+    """S, S2 for who sends it beside that one, R, both or nothing."""
+    parts = {
+        "S": node == message.sender,
+        "S2": node in message.other_senders,
+        "R": node in receivers,
+    }
+    return "/".join(letter for letter, there in parts.items() if there)
 
 
 def _words(column: Column) -> tuple[str, str]:

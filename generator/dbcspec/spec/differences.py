@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 
 from dbcspec.compare.pairing import MessagePair, SignalPair, pair
-from typedcan.model.protocol import Aspect, Protocol, Signal
+from typedcan.model.protocol import Aspect, Message, Protocol, Signal
 
 ACTS = "codes that act"
 """The difference in which codes of a signal act, and all that is said of them."""
@@ -55,9 +55,9 @@ def _message(messages: MessagePair, both: frozenset[Aspect]) -> Iterator[Differe
     facts: list[tuple[str, object, object]] = [
         ("name", old.name, new.name),
         ("identifier", f"0x{old.frame_id:X}", f"0x{new.frame_id:X}"),
-        ("frame format", _format(old.extended), _format(new.extended)),
+        ("frame format", _format(old), _format(new)),
         ("length", old.length, new.length),
-        ("sender", old.sender, new.sender),
+        ("sender", ", ".join(old.senders), ", ".join(new.senders)),
     ]
     if Aspect.PERIODS in both:
         facts.append(("period", old.period or 0, new.period or 0))
@@ -111,8 +111,9 @@ def _signal(signals: SignalPair, both: frozenset[Aspect]) -> Iterator[Difference
             )
 
 
-def _format(extended: bool) -> str:  # noqa: FBT001 - the one thing it says
-    return "extended" if extended else "standard"
+def _format(message: Message) -> str:
+    width = "extended" if message.extended else "standard"
+    return f"{width}, {message.frame_kind}" if message.is_fd else width
 
 
 def _type(signal: Signal) -> str:

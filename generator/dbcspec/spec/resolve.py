@@ -9,7 +9,14 @@ from typing import TypeVar
 from dbcspec.errors import Fault, SpecError
 from dbcspec.spec.behaviour_names import unknown_names
 from dbcspec.spec.resolve_acts import acting_codes
-from dbcspec.spec.rows import FieldRow, MessageRow, SignalRow, SignalTable, Spec
+from dbcspec.spec.resolve_standard import (
+    errata_of,
+    joined,
+    nodes_of,
+    row_reference,
+    table_reference,
+)
+from dbcspec.spec.rows import FieldRow, MessageRow, Spec
 from dbcspec.spec.schema import Record
 from dbcspec.spec.value_tables import ValueTables
 from typedcan.model import protocol as model
@@ -18,6 +25,9 @@ from typedcan.model.layout import float_limits, whole_byte
 from typedcan.model.naming import field_name, shared_prefix
 
 T = TypeVar("T")
+
+_FD = "_FD"
+"""How frame formats of CAN FD end."""
 
 _SEND_TYPES = {
     "Cyclic": model.SendType.CYCLIC,
@@ -55,6 +65,7 @@ class _Resolver:
         }
         self._acting = acting_codes(spec, self.faults)
         self._units = spec.standard.units
+        self._frame_format = spec.standard.frame_format or "ExtendedCAN"
 
     def protocol(self, name: str) -> model.Protocol:
         standard = self._spec.standard
@@ -63,21 +74,11 @@ class _Resolver:
         return model.Protocol(
             name=name,
             number=standard.number,
-            title=_joined(standard.title, standard.part_title),
-            english=_joined(standard.english, standard.part_english),
+            title=joined(standard.title, standard.part_title),
+            english=joined(standard.english, standard.part_english),
             edition=standard.edition,
-            frame_format=standard.frame_format or "ExtendedCAN",
-            nodes=tuple(
-                model.Node(
-                    name=node.name,
-                    title=node.title,
-                    english=node.english,
-                    address=node.address,
-                    other_addresses=node.other_addresses,
-                    errata=node.marks,
-                )
-                for node in standard.nodes
-            ),
+            frame_format=self._frame_format.removesuffix(_FD),
+            nodes=nodes_of(standard),
             buses=tuple(
                 model.Bus(
                     name=bus.name,
@@ -98,17 +99,7 @@ class _Resolver:
                 )
                 for row in self._spec.behaviour.requests
             ),
-            errata=tuple(
-                model.Erratum(
-                    id=row.id,
-                    kind=row.kind,
-                    place=row.place,
-                    printed=row.printed,
-                    reading=row.reading,
-                    because=row.because,
-                )
-                for row in self._spec.errata
-            ),
+            errata=errata_of(self._spec.errata),
         )
 
     def _given(self, record: Record, key: str, value: T | None, instead: T) -> T:
@@ -142,7 +133,10 @@ class _Resolver:
             frame_id=row.id,
             extended=self._is_extended(row),
             length=self._given(row, "length", row.length, 8),
+            is_fd=self._is_fd(row),
+            bit_rate_switch=self._is_fd(row) and row.bit_rate_switch == "yes",
             sender=self._node(row.sender or (routes[0][0] if routes else "")),
+            other_senders=tuple(map(self._node, row.other_senders)),
             period=period or None,
             send_type=_SEND_TYPES[self._given(row, "type", row.type, "Event")],
             condition=self._conditions.get(row.name, ""),
@@ -150,7 +144,7 @@ class _Resolver:
             checksum=self._checksum(row, signals),
             counter=self._counter(signals),
             reserved=tuple(self._reserved(row)),
-            reference=", ".join((self._spec.messages.annex, *map(_table_reference, tables))),
+            reference=", ".join((self._spec.messages.annex, *map(table_reference, tables))),
             errata=row.marks,
             where=row.where,
         )
@@ -176,7 +170,10 @@ class _Resolver:
     def _is_extended(self, row: MessageRow) -> bool:
         if row.extended:
             return row.extended == "yes"
-        return (self._spec.standard.frame_format or "ExtendedCAN") != "StandardCAN"
+        return not self._frame_format.startswith("StandardCAN")
+
+    def _is_fd(self, row: MessageRow) -> bool:
+        return row.fd == "yes" if row.fd else self._frame_format.endswith(_FD)
 
     def _node(self, printed: str) -> str:
         return self._aliases.get(printed, printed)
@@ -228,7 +225,7 @@ class _Resolver:
             multiplexer=field.multiplexer,
             selectors=field.selectors,
             python_name=field.field or field_name(field.name, prefixes),
-            reference=", ".join(_row_reference(*entry) for entry in rows),
+            reference=", ".join(row_reference(*entry) for entry in rows),
             errata=tuple(sorted(marks)),
             where=field.where,
         )
@@ -278,18 +275,6 @@ class _Resolver:
                 numbered_within_group=row.numbering == "within_group",
                 fill=row.fill,
             )
-
-
-def _joined(title: str, part: str) -> str:
-    return f"{title}: {part}" if part else title
-
-
-def _row_reference(table: SignalTable, row: SignalRow) -> str:
-    return f"Table {table.number} row {row.no} ({table.clause})"
-
-
-def _table_reference(table: SignalTable) -> str:
-    return f"Table {table.number} ({table.clause})"
 
 
 def _code_labelled(codes: Mapping[int, str], labels: tuple[str, ...]) -> int | None:

@@ -52,9 +52,12 @@ def _read_codes(node: Node) -> Mapping[int, str] | SameCodes:
     return codes
 
 
-BYTES = whole_number(0, 64)
-BITS = whole_number(1, 8 * 64)
-START = whole_number(0, 8 * 64 - 1)
+_MOST = 1785
+"""Bytes of the longest transfer that J1939 knows; no frame has so many, which the linter tells."""
+
+BYTES = whole_number(0, _MOST)
+BITS = whole_number(1, 8 * _MOST)
+START = whole_number(0, 8 * _MOST - 1)
 CODES = Kind("codes and their labels", _read_codes, _CODES.schema)
 LIST_OF_TEXT = list_of(TEXT)
 
@@ -98,7 +101,8 @@ class Standard(Record):
     nodes: tuple[NodeRow, ...] = key(list_of(nested(NodeRow)), "the nodes", default=())
     buses: tuple[BusRow, ...] = key(list_of(nested(BusRow)), "the buses", default=())
     frame_format: str = key(
-        one_of("StandardCAN", "ExtendedCAN", "J1939PG"), "VFrameFormat of the messages"
+        one_of("StandardCAN", "ExtendedCAN", "J1939PG", "StandardCAN_FD", "ExtendedCAN_FD"),
+        "VFrameFormat of the messages",
     )
     reserved: tuple[str, ...] = key(LIST_OF_TEXT, "names of fields that are no signals", default=())
     units: Mapping[str, str] = key(map_of(TEXT, TEXT), "printed unit: its ASCII form", default={})
@@ -139,7 +143,12 @@ class MessageRow(Record):
     period: int | None = key(INTEGER, "ms; 0 where it is sent on an event only")
     byte_order: str = key(one_of("Intel", "Motorola"), "where it differs from the document's")
     extended: str = key(one_of("yes", "no"), "29-bit identifier, where frame_format says otherwise")
+    fd: str = key(one_of("yes", "no"), "CAN FD frames, where frame_format says otherwise")
+    bit_rate_switch: str = key(
+        one_of("yes", "no"), "whether a CAN FD payload has the second bit rate", default="yes"
+    )
     sender: str = key(NAME, "who sends it, where no signal table says so", default="")
+    other_senders: tuple[str, ...] = key(list_of(NAME), "who else may send it", default=())
     prefixes: tuple[str, ...] = key(
         LIST_OF_TEXT, "what field names in generated code leave off", default=()
     )

@@ -170,8 +170,8 @@ class NotingBus(can.BusABC):
         if kind.COUNTER:
             last = getattr(message, kind.COUNTER.field)
             counter = (last + 1) % kind.COUNTER.modulus if isinstance(last, int) else 0
-        data = self._codec.encode(message, counter=counter, renew=True, safe=True)
-        frame = can.Message(arbitration_id=kind.FRAME_ID, is_extended_id=True, data=data)
+        frame = self._codec.frame(message, counter=counter, safe=True)
+        data = bytes(frame.data)
         self._commands.begin(self._codec.decode(kind.FRAME_ID, data, verify=False))
         return frame
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
-from decimal import Decimal
 from pathlib import PurePath
 
 from cantools.database.can import Database
@@ -13,10 +11,10 @@ from cantools.database.can import Message as CantoolsMessage
 from cantools.database.can import Node as CantoolsNode
 from cantools.database.can import Signal as CantoolsSignal
 
+from typedcan.databases.scaling import limits, scaling, start_value
 from typedcan.databases.value_tables import ValueTables, code_labelled, codes_of
 from typedcan.model import protocol as model
 from typedcan.model.errors import Location, ReadError
-from typedcan.model.layout import float_limits
 from typedcan.model.naming import field_name, field_names, shared_prefix
 
 INVALID_LABELS = frozenset(
@@ -155,6 +153,8 @@ class _Builder:
         selecting = {each.multiplexer_signal for each in message.signals if each.multiplexer_ids}
         selecting = {long.get(name, name) for name in selecting if name}
         fields = field_names(field_name(signal.name, prefixes) for signal in message.signals)
+        senders = [name for name in dict.fromkeys(message.senders) if name != _NOBODY]
+        is_fd = message.is_fd or self._needs_fd(message)
         return model.Message(
             name=message.name,
             title=title,
@@ -162,7 +162,10 @@ class _Builder:
             frame_id=message.frame_id,
             extended=message.is_extended_frame,
             length=message.length,
-            sender=next((name for name in message.senders if name != _NOBODY), ""),
+            is_fd=is_fd,
+            bit_rate_switch=is_fd and self._switches(message),
+            sender=senders[0] if senders else "",
+            other_senders=tuple(senders[1:]),
             period=period if period > 0 else None,
             send_type=_send_type(message, period),
             signals=tuple(
@@ -176,6 +179,20 @@ class _Builder:
             where=places.message,
         )
 
+    def _needs_fd(self, message: CantoolsMessage) -> bool:
+        """Whether only CAN FD can carry a message of a file that says nothing of it."""
+        silent = "VFrameFormat" not in self._defined and message.protocol is None
+        return silent and model.LONGEST_CLASSIC < message.length <= model.FD_LENGTHS[-1]
+
+    def _switches(self, message: CantoolsMessage) -> bool:
+        """Whether the payload has the second bit rate; where no attribute says it, it has."""
+        definition, value = self._defined.get("CANFD_BRS"), _attribute(message, "CANFD_BRS")
+        if definition and value is None:
+            value = definition.default_value
+        elif definition and definition.choices and isinstance(value, int):
+            value = dict(enumerate(definition.choices)).get(value)
+        return str(value).lower() not in ("0", "no", "off")
+
     def _signal(
         self,
         signal: CantoolsSignal,
@@ -186,9 +203,9 @@ class _Builder:
     ) -> model.Signal:
         english, title = _texts(signal.comment)
         codes = codes_of(signal.choices or {})
-        factor, offset = self._scaling(signal, where)
+        factor, offset = scaling(signal, where)
         selector = signal.multiplexer_signal or ""
-        low, high = _limits(signal, factor, offset, where)
+        low, high = limits(signal, factor, offset, where)
         return model.Signal(
             name=signal.name,
             title=title,
@@ -211,7 +228,7 @@ class _Builder:
             value_table=self._value_tables.of(signal.name, codes) if codes else None,
             invalid_code=code_labelled(codes, self._labels.invalid),
             abnormal_code=code_labelled(codes, self._labels.abnormal),
-            start_value=self._start_value(signal),
+            start_value=start_value(signal, self._defined),
             receivers=tuple(name for name in signal.receivers if name != _NOBODY),
             is_selector=signal.is_multiplexer or signal.name in selecting,
             multiplexer=long.get(selector, selector) if signal.multiplexer_ids else "",
@@ -221,20 +238,6 @@ class _Builder:
             errata=tuple(str(_attribute(signal, "SpecErrata") or "").split()),
             where=where,
         )
-
-    def _scaling(self, signal: CantoolsSignal, where: Location) -> tuple[Decimal, Decimal]:
-        factor = _number(signal.conversion.scale, signal, where)
-        if not factor:
-            raise ReadError(f"{where}: {signal.name}: its factor is 0")
-        return factor, _number(signal.conversion.offset, signal, where)
-
-    def _start_value(self, signal: CantoolsSignal) -> int:
-        """The raw value; what is no whole number, as floats may have, is cut off."""
-        value: object = signal.raw_initial
-        if value is None and "GenSigStartValue" in self._defined:
-            value = self._defined["GenSigStartValue"].default_value
-        finite = isinstance(value, int | float) and math.isfinite(value)
-        return int(value) if finite and isinstance(value, int | float) else 0
 
 
 def _texts(comment: str | None) -> tuple[str, str]:
@@ -261,33 +264,3 @@ def _send_type(message: CantoolsMessage, period: int) -> model.SendType:
     if "ifactive" in word:
         return model.SendType.IF_ACTIVE
     return model.SendType.CYCLIC if word.startswith("cyclic") else model.SendType.EVENT
-
-
-def _number(value: float, signal: CantoolsSignal, where: Location) -> Decimal:
-    number = Decimal(repr(value))
-    if not number.is_finite():
-        raise ReadError(f"{where}: {signal.name}: {value} is no finite number")
-    return number
-
-
-def _limits(
-    signal: CantoolsSignal, factor: Decimal, offset: Decimal, where: Location
-) -> tuple[Decimal, Decimal]:
-    """Minimum and maximum; what the file leaves open is what the bits can hold."""
-    if signal.conversion.is_float:
-        low, high = float_limits(signal.length)
-    else:
-        values = 1 << signal.length
-        raw = -(values // 2) if signal.is_signed else 0
-        low, high = sorted((raw * factor + offset, (raw + values - 1) * factor + offset))
-    if not signal.minimum and not signal.maximum:  # [0|0], however it is written, is none
-        return low, high
-    return (
-        low if _is_open(signal.minimum) else _number(signal.minimum or 0, signal, where),
-        high if _is_open(signal.maximum) else _number(signal.maximum or 0, signal, where),
-    )
-
-
-def _is_open(limit: float | None) -> bool:
-    """Whether a limit is not given, or too large for cantools, as of signals of 1600 bits."""
-    return limit is None or math.isinf(limit)

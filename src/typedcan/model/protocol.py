@@ -8,25 +8,24 @@ here. Start bits are counted as DBC files count them: bit 0 is the least signifi
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from decimal import Decimal
 from enum import Enum
 from functools import cached_property
 
-from typedcan.model.acting import ActingCodes, no_value
 from typedcan.model.canonical import canonical
 from typedcan.model.errors import Location
+from typedcan.model.signal import NOWHERE as NOWHERE
+from typedcan.model.signal import ByteOrder as ByteOrder
+from typedcan.model.signal import Code as Code
+from typedcan.model.signal import Signal as Signal
+from typedcan.model.signal import ValueTable as ValueTable
 
-NOWHERE = Location("")
+LONGEST_CLASSIC = 8
+"""Bytes that a frame of classic CAN carries."""
 
-
-class ByteOrder(Enum):
-    """How the bits of a signal follow each other."""
-
-    INTEL = "Intel"
-    MOTOROLA = "Motorola"
+FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
+"""Bytes that a frame of CAN FD carries."""
 
 
 class SendType(Enum):
@@ -50,83 +49,6 @@ class Aspect(Enum):
     PROTECTION = "checksums and counters"
     TRANSFERS = "transfers and requests"
     ACTS = "codes that act"
-
-
-@dataclass(frozen=True, slots=True)
-class Code:
-    """One raw value with a meaning: the label as printed and in English."""
-
-    value: int
-    label: str
-    english: str
-
-
-@dataclass(frozen=True, slots=True)
-class ValueTable:
-    """The codes of one or more signals, ascending by value."""
-
-    name: str
-    codes: tuple[Code, ...]
-
-    def labels(self, *, english: bool = True) -> dict[int, str]:
-        """Raw value to label."""
-        return {code.value: code.english if english else code.label for code in self.codes}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Signal:
-    """A value in a message. Physical value = raw value x factor + offset.
-
-    A multiplexed signal is there only while the signal ``multiplexer`` of its message, which has
-    ``is_selector``, holds one of the raw values ``selectors``.
-    """
-
-    name: str
-    title: str = ""
-    english: str = ""
-    start: int
-    length: int
-    byte_order: ByteOrder = ByteOrder.INTEL
-    signed: bool = False
-    is_float: bool = False
-    factor: Decimal = Decimal(1)
-    offset: Decimal = Decimal(0)
-    minimum: Decimal
-    maximum: Decimal
-    unit: str = ""
-    value_table: ValueTable | None = None
-    invalid_code: int | None = None
-    abnormal_code: int | None = None
-    start_value: int = 0
-    acting: ActingCodes | None = None
-    receivers: tuple[str, ...] = ()
-    is_selector: bool = False
-    multiplexer: str = ""
-    selectors: tuple[int, ...] = ()
-    python_name: str = ""
-    reference: str = ""
-    errata: tuple[str, ...] = ()
-    where: Location = field(default=NOWHERE, compare=False)
-
-    @property
-    def must_be_given(self) -> bool:
-        """Whether what stands for no value, or the start value, is a code that acts."""
-        acting = self.acting.codes if self.acting else ()
-        return no_value(self.invalid_code) in acting or self.start_value in acting
-
-    @property
-    def raw_limits(self) -> tuple[int, int]:
-        """The smallest and largest value that the bits can hold."""
-        low = -(1 << (self.length - 1)) if self.signed else 0
-        return low, low + (1 << self.length) - 1
-
-    @property
-    def raw_range(self) -> tuple[int, int]:
-        """The raw values of minimum and maximum, in ascending order, rounded inwards."""
-        low, high = sorted(
-            ((self.minimum - self.offset) / self.factor, (self.maximum - self.offset) / self.factor)
-        )
-        return math.ceil(low), math.floor(high)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -160,7 +82,11 @@ class ReservedBits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Message:
-    """What one identifier carries. ``period`` is in ms, None where it is sent on events only."""
+    """What one identifier carries. ``period`` is in ms, None where it is sent on events only.
+
+    With ``is_fd`` its frames are CAN FD frames, whatever their length, and with ``bit_rate_switch``
+    their payload has the second bit rate. ``other_senders`` may send it beside ``sender``.
+    """
 
     name: str
     title: str = ""
@@ -168,7 +94,10 @@ class Message:
     frame_id: int
     extended: bool = True
     length: int
+    is_fd: bool = False
+    bit_rate_switch: bool = False
     sender: str
+    other_senders: tuple[str, ...] = ()
     period: int | None = None
     send_type: SendType = SendType.EVENT
     condition: str = ""
@@ -191,6 +120,23 @@ class Message:
         """The signal of that name; raises `KeyError`."""
         by_name = {signal.name: signal for signal in reversed(self.signals)}
         return by_name[name]
+
+    @property
+    def senders(self) -> tuple[str, ...]:
+        """Who may send it, in order."""
+        return tuple(filter(None, (self.sender, *self.other_senders)))
+
+    @property
+    def frame_kind(self) -> str:
+        """Classic CAN or CAN FD, and whether its payload has the second bit rate, for people."""
+        kind = "CAN FD" if self.is_fd else "classic CAN"
+        return f"{kind}, second bit rate" if self.bit_rate_switch else kind
+
+    @property
+    def frame_length(self) -> int:
+        """The bytes of its frames: those of CAN FD frames are filled up to a length that it has."""
+        longer = (each for each in FD_LENGTHS if each >= self.length)
+        return next(longer, self.length) if self.is_fd else self.length
 
     @property
     def receivers(self) -> tuple[str, ...]:

@@ -226,7 +226,7 @@ class Node(Running):
         """
         self._outbox.check_open()
         for request in self.protocol.requests:
-            if answer in request.answers and self.name == request.field.message.SENDER:
+            if answer in request.answers and self.name in request.field.message.MODEL.senders:
                 return self._engine.requests.begin(
                     name, request, collector, timeout=timeout, again=again, now=self.clock.now()
                 )

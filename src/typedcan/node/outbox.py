@@ -194,7 +194,8 @@ class Outbox:
 
     def _check(self, kind: type[Message]) -> None:
         if kind not in self._may_send:
-            raise SendingError(f"{self._name} does not send {kind.NAME}: {kind.SENDER} does")
+            who = " or ".join(kind.MODEL.senders) or "nobody"
+            raise SendingError(f"{self._name} does not send {kind.NAME}: {who} does")
 
     def _provide(self, kind: type[Message], answer: Source) -> None:
         with self._changed:

@@ -49,8 +49,8 @@ class Transmitter:
         self._lock = threading.RLock()
 
     def check(self, message: Message) -> None:
-        """Raise `EncodeError` where a message has a value that cannot be sent."""
-        self._codec.encode(message)
+        """Raise `EncodeError` or `SendingError` where a message cannot be sent."""
+        self._codec.frame(message)
 
     @property
     def acting(self) -> tuple[Message, ...]:
@@ -68,12 +68,7 @@ class Transmitter:
 
     def frame(self, message: Message, *, safe: bool = False) -> can.Message:
         """The frame of a message as it would go out next; ``safe`` as `Codec.encode` has it."""
-        kind = type(message)
-        counter = self._counters.peek(kind)
-        data = self._codec.encode(message, counter=counter, renew=True, safe=safe)
-        return can.Message(
-            arbitration_id=kind.FRAME_ID, is_extended_id=kind.EXTENDED, data=data, is_rx=False
-        )
+        return self._codec.frame(message, counter=self._counters.peek(type(message)), safe=safe)
 
     def send(self, message: Message) -> None:
         """Send a message; the counter goes on once the bus has accepted the frame.

@@ -9,9 +9,15 @@ from typing import Any, overload
 
 import can
 
+from typedcan.model.protocol import FD_LENGTHS, LONGEST_CLASSIC
 from typedcan.wire.acting import safe_codes
 from typedcan.wire.database import Database, database
-from typedcan.wire.errors import DecodeError, UnknownFrameError, UnknownMessageError
+from typedcan.wire.errors import (
+    DecodeError,
+    SendingError,
+    UnknownFrameError,
+    UnknownMessageError,
+)
 from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from typedcan.wire.protocol import Protocol
@@ -95,6 +101,30 @@ class Codec:
         if checksum and (renew or getattr(message, checksum.name) is None):
             return sealed(kind, data, self._algorithms)
         return data
+
+    def frame(
+        self, message: Message, *, counter: int | None = None, safe: bool = False
+    ) -> can.Message:
+        """The frame that a message is sent in: its payload as `encode` makes it with ``renew``.
+
+        What a CAN FD payload lacks to a length that its frames can have is filled up with 0.
+        Raises `EncodeError`, and `SendingError` for a payload that no frame carries.
+        """
+        kind = type(message)
+        model = kind.MODEL
+        data = self.encode(message, counter=counter, renew=True, safe=safe)
+        most = FD_LENGTHS[-1] if model.is_fd else LONGEST_CLASSIC
+        if len(data) > most:
+            sort = "CAN FD" if model.is_fd else "classic CAN"
+            raise SendingError(f"{kind.NAME}: no frame of {sort} carries {len(data)} bytes")
+        return can.Message(
+            arbitration_id=kind.FRAME_ID,
+            is_extended_id=kind.EXTENDED,
+            is_fd=model.is_fd,
+            bitrate_switch=model.bit_rate_switch,
+            data=data.ljust(model.frame_length, b"\0") if model.is_fd else data,
+            is_rx=False,
+        )
 
     @overload
     def decode(

@@ -69,13 +69,11 @@ class Link:
 
         Checksum and alive counter are filled in, also where the message has old ones. The
         counter goes on once the bus has accepted the frame. ``timeout`` is python-can's, in
-        seconds. Raises `EncodeError` before anything is sent, and `can.CanError`.
+        seconds. Raises `EncodeError` and `SendingError` before anything is sent, and
+        `can.CanError`.
         """
         kind = type(message)
-        data = self._codec.encode(message, counter=self._sent.peek(kind), renew=True)
-        frame = can.Message(
-            arbitration_id=kind.FRAME_ID, is_extended_id=kind.EXTENDED, data=data, is_rx=False
-        )
+        frame = self._codec.frame(message, counter=self._sent.peek(kind))
         self._bus.send(frame, timeout=timeout)
         self._sent.advance(kind)
         return frame

@@ -117,7 +117,7 @@ class Protocol:
     def sent_by(self, node: str) -> tuple[type[Message], ...]:
         """The messages that a node sends; raises `UnknownNodeError`."""
         self._check(node)
-        return tuple(message for message in self.messages if node == message.SENDER)
+        return tuple(message for message in self.messages if node in message.MODEL.senders)
 
     def received_by(self, node: str) -> tuple[type[Message], ...]:
         """The messages meant for a node; raises `UnknownNodeError`."""
