@@ -25,7 +25,7 @@ from conform.recorded import block_of, recorded
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, judge_log
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Rule, Watcher
 from swapcan.log_protocol import OWN
@@ -91,7 +91,7 @@ class _Timed(Watcher):
         self._watcher.take(chunk)
         self._spent[self._id] += time.process_time() - begin
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Let the rule come to its end."""
         self._watcher.finish(end)
 

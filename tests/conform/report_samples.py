@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import (
     Judgement,
     Occurrence,
@@ -118,12 +119,14 @@ LOAD = Load(
     own_stuffed=0.24,
     expected=0.21,
     expected_stuffed=0.26,
+    bit_rate=250_000,
 )
 
 FIRST = occurrence(2.5)
 WORST = occurrence(5.0, 9.0)
 
 PLAIN = Judgement(
+    protocol=PROTOCOL,
     log="drive.blf",
     digest="ab" * 32,
     begin=BEGIN,

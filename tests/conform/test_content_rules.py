@@ -11,13 +11,7 @@ import pytest
 from conform.altered import database
 from conform.in_blocks import ALL, candump, result_of
 
-from swapcan.conform import RuleResult, judge_log
-from swapcan.conform.rules.content import (
-    code_defined,
-    code_reserved,
-    invalid_lasting,
-    value_range,
-)
+from swapcan.conform import RuleResult, judge_log, rule_of
 
 CASES = Path(__file__).with_name("cases")
 
@@ -77,7 +71,7 @@ def frames_by_signal(result: RuleResult) -> Counter[str]:
 
 
 def test_of_all_codes_of_short_signals_those_are_found_that_no_table_has(tmp_path: Path) -> None:
-    result = result_of(code_defined.RULE, every_code(tmp_path / "codes.log", 4))
+    result = result_of(rule_of("code-defined"), every_code(tmp_path / "codes.log", 4))
     lengths = {
         signal.name: signal.length for message in database().messages for signal in message.signals
     }
@@ -87,7 +81,7 @@ def test_of_all_codes_of_short_signals_those_are_found_that_no_table_has(tmp_pat
 
 
 def test_of_all_codes_of_short_signals_those_are_found_that_are_reserved(tmp_path: Path) -> None:
-    result = result_of(code_reserved.RULE, every_code(tmp_path / "codes.log", 4))
+    result = result_of(rule_of("code-reserved"), every_code(tmp_path / "codes.log", 4))
     assert frames_by_signal(result) == RESERVED
 
 
@@ -95,7 +89,7 @@ def test_of_all_codes_of_a_byte_those_are_found_that_leave_the_printed_range(
     tmp_path: Path,
 ) -> None:
     """Tables 13 and 17: 0 to 5 V with 255 for invalid, and -40 to 210 degC."""
-    result = result_of(value_range.RULE, every_code(tmp_path / "codes.log", 8))
+    result = result_of(rule_of("value-range"), every_code(tmp_path / "codes.log", 8))
     volts = dict.fromkeys((f"B2V_BI2_{which}_Ucell" for which in ("Platform", "AvaiMin")), 204)
     assert frames_by_signal(result) == {
         **volts,
@@ -105,7 +99,7 @@ def test_of_all_codes_of_a_byte_those_are_found_that_leave_the_printed_range(
 
 
 def test_numbers_of_frames_and_groups_begin_at_one(tmp_path: Path) -> None:
-    result = result_of(code_defined.RULE, every_code(tmp_path / "codes.log", 8))
+    result = result_of(rule_of("code-defined"), every_code(tmp_path / "codes.log", 8))
     numbers = {
         name: frames
         for name, frames in frames_by_signal(result).items()
@@ -122,7 +116,7 @@ def test_numbers_of_frames_and_groups_begin_at_one(tmp_path: Path) -> None:
 
 def test_what_a_frame_with_a_wrong_checksum_says_is_not_judged(tmp_path: Path) -> None:
     log = candump(tmp_path / "wrong.log", "0 can0 1802F3D0#5B8000FE45440400")
-    result = result_of(code_reserved.RULE, log)
+    result = result_of(rule_of("code-reserved"), log)
     assert (result.examined, result.count) == (0, 0)
 
 
@@ -135,13 +129,13 @@ def test_a_silence_is_no_invalid_signal(size: int, tmp_path: Path) -> None:
     # Twice 3.6 s with 2 s of silence in between, more than five periods of 0.1 s.
     times = [start + step * 0.4 for start in (0.0, 5.6) for step in range(10)]
     log = candump(tmp_path / "silent.log", *(f"{time} can0 {NOTHING}" for time in times))
-    assert result_of(invalid_lasting.RULE, log, size).count == 0
+    assert result_of(rule_of("invalid-lasting"), log, size).count == 0
 
 
 def test_how_long_a_signal_may_be_invalid_can_be_set() -> None:
     limits = {"invalid-lasting.seconds": 5.4}
     log = CASES / "invalid-lasting" / "fails.log"
-    result = judge_log(log, rules=[invalid_lasting.RULE], limits=limits).results[0]
+    result = judge_log(log, rules=[rule_of("invalid-lasting")], limits=limits).results[0]
     assert [(each.subject.signal, each.says()) for each in result.occurrences] == [
         ("B2V_ST5_Max_Ucell", "Abnormal for 5.5 s, allowed are 5.4 s")
     ]
@@ -152,6 +146,6 @@ def test_relays_that_the_other_side_measures_may_be_invalid_for_ever(tmp_path: P
     data = bytes([0, 0xA0, 0, 0xFE, 0xFF, 0xFF, 0x3F, 0])
     frame = f"1802F3D0#{(bytes([reduce(xor, data)]) + data[1:]).hex()}"
     log = candump(tmp_path / "relays.log", *(f"{n * 0.2} can0 {frame}" for n in range(60)))
-    result = result_of(invalid_lasting.RULE, log)
+    result = result_of(rule_of("invalid-lasting"), log)
     assert result.examined
     assert result.count == 0

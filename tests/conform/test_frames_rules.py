@@ -11,16 +11,9 @@ import pytest
 import yaml
 from conform.in_blocks import ALL, candump, found, result_of
 
-from swapcan.conform import Status
-from swapcan.conform.rules.frames import (
-    foreign_frames,
-    frame_kind,
-    frame_length,
-    identifier_priority,
-    reserved_bits,
-    source_address,
-    unassigned_bits,
-)
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform import Status, rule_of
+from swapcan.conform.rules.frames.reserved_bits import reserved_masks
 
 CASES = Path(__file__).with_name("cases")
 SPEC = Path(__file__).parents[2] / "spec" / "messages.yaml"
@@ -43,8 +36,12 @@ def test_the_reserved_bits_are_those_that_the_standard_prints() -> None:
         )
         for number, signals in printed().items()
     }
-    judged = {message.FRAME_ID: fields for message, fields in reserved_bits.RESERVED.items()}
-    assert judged == {number: reserved for number, reserved in fields.items() if reserved}
+    judged = {message.FRAME_ID: mask for message, mask in reserved_masks(PROTOCOL).items()}
+    assert judged == {
+        number: sum((1 << last + 1) - (1 << first) for first, last in reserved)
+        for number, reserved in fields.items()
+        if reserved
+    }
 
 
 def test_the_bits_that_no_field_names_are_found_one_by_one(tmp_path: Path) -> None:
@@ -57,19 +54,21 @@ def test_the_bits_that_no_field_names_are_found_one_by_one(tmp_path: Path) -> No
                 data = bytes([reduce(xor, data[1:])]) + data[1:]
             lines.append(f"{len(lines)} can0 {number:08X}#{data.hex()}")
     log = candump(tmp_path / "bits.log", *lines)
-    result = result_of(unassigned_bits.RULE, log)
+    result = result_of(rule_of("unassigned-bits"), log)
     assert result.frames == 154
     assert len({each.subject.message for each in result.occurrences}) == 8
 
 
 def test_a_node_that_is_not_judged_is_not_blamed_for_its_frames() -> None:
-    for rule in (frame_kind.RULE, frame_length.RULE, identifier_priority.RULE):
+    for rule in (rule_of("frame-kind"), rule_of("frame-length"), rule_of("identifier-priority")):
         log = CASES / rule.id / "fails.log"
         assert result_of(rule, log, nodes=["BSU"]).status is Status.NOT_JUDGED
 
 
 def test_foreign_frames_are_noted_whoever_is_judged() -> None:
-    result = result_of(foreign_frames.RULE, CASES / "foreign-frames" / "fails.log", nodes=["CHG"])
+    result = result_of(
+        rule_of("foreign-frames"), CASES / "foreign-frames" / "fails.log", nodes=["CHG"]
+    )
     assert {each.subject.node for each in result.occurrences} == {"CHG"}
     assert result.count == 3
 
@@ -81,7 +80,7 @@ def test_the_first_thousand_foreign_identifiers_are_listed_and_the_rest_counted(
     # In falling order, so that the first to come are not the lowest; the last three come twice.
     numbers = [*range(0x10000000 + 1004, 0x10000000 - 1, -1), *range(0x10000000, 0x10000003)]
     lines = [f"{place / 1000} can0 {number:08X}#00" for place, number in enumerate(numbers)]
-    result = result_of(foreign_frames.RULE, candump(tmp_path / "many.log", *lines), size)
+    result = result_of(rule_of("foreign-frames"), candump(tmp_path / "many.log", *lines), size)
     assert result.count == len(result.occurrences) == 1000
     assert result.occurrences[0].subject.detail == "0x100003EC"
     assert result.occurrences[-1].subject.detail == "0x10000005"
@@ -96,13 +95,13 @@ def test_a_frame_from_an_unknown_address_is_foreign_where_the_message_came_as_pr
 ) -> None:
     lines = ["0 can0 1880D0F5#0000000000000000", "0.1 can0 1880D0F3#0000000000000000"]
     both = candump(tmp_path / "both.log", *lines)
-    assert result_of(source_address.RULE, both).count == 0
-    assert [each[0] for each in found(result_of(foreign_frames.RULE, both))] == ["0x1880D0F5"]
+    assert result_of(rule_of("source-address"), both).count == 0
+    assert [each[0] for each in found(result_of(rule_of("foreign-frames"), both))] == ["0x1880D0F5"]
     alone = candump(tmp_path / "alone.log", lines[0])
-    assert [each[0] for each in found(result_of(source_address.RULE, alone))] == [
+    assert [each[0] for each in found(result_of(rule_of("source-address"), alone))] == [
         "B2V_ST0 0x1880D0F5"
     ]
-    assert result_of(foreign_frames.RULE, alone).count == 0
+    assert result_of(rule_of("foreign-frames"), alone).count == 0
 
 
 def test_error_frames_and_frames_of_other_kinds_do_not_hide_those_that_are_right(
@@ -110,6 +109,6 @@ def test_error_frames_and_frames_of_other_kinds_do_not_hide_those_that_are_right
 ) -> None:
     lines = [f"0 can0 {ST1}", "0.05 can0 20000080#0000000000000000", "0.1 can1 1881D0F3#R8"]
     log = candump(tmp_path / "mixed.log", *lines, f"0.2 can0 {ST1}", "0.3 can0 1881D0F3#00")
-    assert [each[1:4] for each in found(result_of(frame_kind.RULE, log))] == [(0.1, 0.1, 1)]
-    assert [each[1:4] for each in found(result_of(frame_length.RULE, log))] == [(0.3, 0.3, 1)]
-    assert result_of(frame_length.RULE, log).examined == 3
+    assert [each[1:4] for each in found(result_of(rule_of("frame-kind"), log))] == [(0.1, 0.1, 1)]
+    assert [each[1:4] for each in found(result_of(rule_of("frame-length"), log))] == [(0.3, 0.3, 1)]
+    assert result_of(rule_of("frame-length"), log).examined == 3

@@ -14,7 +14,7 @@ from conform.live_rig import Altered, believe_any_checksum, bench, take_off_for_
 from conform.recorded import written
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform import RULES, Judgement, Status, Verdict, judge_log
+from swapcan.conform import RULES, Judgement, Status, Verdict, judge_log, rule_of
 from swapcan.conform.live.announcement import announcement
 from swapcan.conform.live.reactions.high_voltage import HV_ON, HV_REACHED
 from swapcan.conform.live.reactions.troubled_commands import (
@@ -25,7 +25,6 @@ from swapcan.conform.live.reactions.troubled_commands import (
 from swapcan.conform.live.scenario import Scenario, ScenarioError
 from swapcan.conform.live.scenarios import SCENARIOS, scenarios_of
 from swapcan.conform.live.stage import LOOK_OUT, Left
-from swapcan.conform.rules.requests import answer_in_time
 from swapcan.conform.rules.voltage import hv_off_in_time
 from swapcan.messages import (
     V2B_CMD,
@@ -198,7 +197,7 @@ def test_a_pack_that_does_not_answer_requests_is_found(tmp_path: Path) -> None:
         rig.pack.node.clear(B2V_BattInfo1)
         rig.play(scenario)
         judgement = judgement_of(scenario, rig.frames, tmp_path)
-    (text,) = said(judgement, answer_in_time.RULE)
+    (text,) = said(judgement, rule_of("answer-in-time"))
     assert "B2V_BattInfo1" in text
 
 

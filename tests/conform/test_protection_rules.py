@@ -8,7 +8,7 @@ import pytest
 from conform.altered import database
 from conform.in_blocks import ALL, candump, found, result_of
 
-from swapcan.conform.rules.protection import checksum, counter_allowed, counter_sequence
+from swapcan.conform import rule_of
 
 CASES = Path(__file__).with_name("cases")
 SIZES = pytest.mark.parametrize("size", [1, 2, 7, ALL])
@@ -33,7 +33,7 @@ def test_wrong_checksums_are_steps_of_the_counter_and_no_faults(size: int, tmp_p
         st1(0.6, 6),  # 5 is lost
         st1(0.7, 7),
     ]
-    result = result_of(counter_sequence.RULE, candump(tmp_path / "steps.log", *lines), size)
+    result = result_of(rule_of("counter-sequence"), candump(tmp_path / "steps.log", *lines), size)
     assert found(result) == [
         (
             "B2V_ST1_ALIV",
@@ -49,7 +49,7 @@ def test_wrong_checksums_are_steps_of_the_counter_and_no_faults(size: int, tmp_p
 @SIZES
 def test_a_counter_that_stays_is_one_run_across_wrong_checksums(size: int, tmp_path: Path) -> None:
     lines = [st1(0.0, 4), st1(0.1, 4), st1(0.2, 4, spoilt=True), st1(0.3, 4), st1(0.4, 5)]
-    result = result_of(counter_sequence.RULE, candump(tmp_path / "stays.log", *lines), size)
+    result = result_of(rule_of("counter-sequence"), candump(tmp_path / "stays.log", *lines), size)
     assert [each[1:] for each in found(result)] == [
         (0.1, 0.3, 2, "repeated: the counter stays at 4")
     ]
@@ -61,7 +61,7 @@ def test_a_counter_begins_anew_after_more_than_five_periods(
     pause: float, count: int, size: int, tmp_path: Path
 ) -> None:
     lines = [st1(0.0, 3), st1(pause, 11, spoilt=True), st1(pause + 0.1, 12), st1(pause + 0.2, 13)]
-    result = result_of(counter_sequence.RULE, candump(tmp_path / "pause.log", *lines), size)
+    result = result_of(rule_of("counter-sequence"), candump(tmp_path / "pause.log", *lines), size)
     assert result.count == count
 
 
@@ -70,8 +70,8 @@ def test_a_counter_begins_anew_after_a_value_that_it_must_not_have(
     size: int, tmp_path: Path
 ) -> None:
     log = candump(tmp_path / "fifteen.log", st1(0.0, 3), st1(0.1, 15), st1(0.2, 9), st1(0.3, 10))
-    assert result_of(counter_sequence.RULE, log, size).count == 0
-    assert [each[1:4] for each in found(result_of(counter_allowed.RULE, log, size))] == [
+    assert result_of(rule_of("counter-sequence"), log, size).count == 0
+    assert [each[1:4] for each in found(result_of(rule_of("counter-allowed"), log, size))] == [
         (0.1, 0.1, 1)
     ]
 
@@ -79,9 +79,9 @@ def test_a_counter_begins_anew_after_a_value_that_it_must_not_have(
 def test_counters_of_eight_bits_may_have_any_value_and_run_through_255(tmp_path: Path) -> None:
     lines = [f"{n} can0 18FF45F4#000000000000{n % 256:02X}00" for n in range(250, 300)]
     log = candump(tmp_path / "cooling.log", *lines)
-    result = result_of(counter_sequence.RULE, log)
+    result = result_of(rule_of("counter-sequence"), log)
     assert (result.examined, result.count) == (50, 0)
-    assert result_of(counter_allowed.RULE, log).examined == 0
+    assert result_of(rule_of("counter-allowed"), log).examined == 0
 
 
 def test_each_byte_counts_for_each_checksum_and_only_where_the_standard_states_one(
@@ -92,7 +92,7 @@ def test_each_byte_counts_for_each_checksum_and_only_where_the_standard_states_o
         for number, message in enumerate(database().messages)
         for byte in range(8)
     ]
-    result = result_of(checksum.RULE, candump(tmp_path / "bytes.log", *lines))
+    result = result_of(rule_of("checksum"), candump(tmp_path / "bytes.log", *lines))
     assert {(each.subject.message, each.frames) for each in result.occurrences} == {
         (name, 8) for name in PROTECTED
     }

@@ -8,12 +8,13 @@ import pytest
 from conform.in_blocks import candump, essence, found, result_of
 from conform.recorded import recorded, written
 
-from swapcan.conform import Status, judge_log
-from swapcan.conform.rules.requests import RULES
+from swapcan.conform import Status, judge_log, rule_of
 
 CASES = Path(__file__).with_name("cases")
 
-IN_TIME, UNASKED, WITHDRAWN = RULES
+RULES = IN_TIME, UNASKED, WITHDRAWN = tuple(
+    rule_of(each) for each in ("answer-in-time", "answer-unasked", "request-withdrawn")
+)
 
 ASK_INFO, ASK_CODE, ASK_NOTHING = (
     f"can0 1801F3EF#{2 * f'{code:02X}'}000000000000" for code in (0x09, 0x06, 0x0A)

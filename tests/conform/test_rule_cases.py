@@ -10,8 +10,11 @@ from pathlib import Path
 import pytest
 from conform.in_blocks import ALL, result_of
 
+from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judgement, Rule, RuleResult, Status, judge_log
 from swapcan.conform import rules as folders
+from swapcan.conform.registry import SCOPE
+from swapcan.conform.rules import rules_for
 
 CASES = Path(__file__).with_name("cases")
 
@@ -74,9 +77,12 @@ def test_every_module_with_a_rule_is_registered_under_the_name_of_its_file() -> 
         info.name.rpartition(".")[2]: import_module(info.name)
         for info in pkgutil.walk_packages(folders.__path__, f"{folders.__name__}.")
     }
-    found = {name: module.RULE for name, module in modules.items() if hasattr(module, "RULE")}
-    assert {name.replace("_", "-") for name in found} == {rule.id for rule in found.values()}
-    assert {rule.id for rule in RULES} == {rule.id for rule in found.values()}
+    own = {name: module.RULE for name, module in modules.items() if hasattr(module, "RULE")}
+    made = {name.replace("_", "-") for name, module in modules.items() if hasattr(module, "rule")}
+    cycles = {f"{what}-{how}" for what in ("cells", "probes") for how in ("complete", "order")}
+    assert {name.replace("_", "-") for name in own} == {rule.id for rule in own.values()}
+    assert {rule.id for rule in RULES} == {rule.id for rule in own.values()} | made | cycles
+    assert {rule.id for rule in rules_for(PROTOCOL, SCOPE)} == made | cycles
 
 
 def test_ids_of_rules_and_names_of_tolerances_are_unique() -> None:

@@ -10,9 +10,8 @@ import can
 import pytest
 from conform.recorded import recorded, written
 
-from swapcan.conform import Judge, Judgement, Status, judge_log
+from swapcan.conform import Judge, Judgement, Status, judge_log, rule_of
 from swapcan.conform.findings import KEPT
-from swapcan.conform.rules import timing
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST1,
@@ -33,7 +32,15 @@ from typedcan.logs.read import open_log
 from typedcan.wire.message import Message
 
 CASES = Path(__file__).with_name("cases")
-LOGS = [CASES / rule.id / log for rule in timing.RULES for log in ("passes.log", "fails.log")]
+TIMING = [
+    rule_of(each)
+    for each in (
+        *("period-mean", "period-jitter", "period-gap", "period-short", "node-silence"),
+        *("event-repeated", "message-missing", "start-complete", "start-state"),
+        *("relays-before-command", "bus-load"),
+    )
+]
+LOGS = [CASES / rule.id / log for rule in TIMING for log in ("passes.log", "fails.log")]
 EMPTY = bytes(8)
 HV_OPEN = bytes(8)
 HV_CLOSED = bytes([0x20, 0x20, 0, 0, 0, 0, 0, 0])
@@ -56,11 +63,11 @@ def every(
 def judged(path: Path, frames: Iterable[can.Message], block: int = 0) -> Judgement:
     """What timing rules find, with frames in the order of their times."""
     log = written(sorted(frames, key=lambda each: each.timestamp), path / "log.log")
-    return in_blocks(log, block) if block else judge_log(log, rules=timing.RULES)
+    return in_blocks(log, block) if block else judge_log(log, rules=TIMING)
 
 
 def in_blocks(log: Path, size: int) -> Judgement:
-    judge = Judge(rules=timing.RULES)
+    judge = Judge(rules=TIMING)
     with open_log(log, size) as source:
         for block in source:
             judge.take(block)
@@ -105,13 +112,13 @@ def test_a_silent_node_is_found_for_its_silence_alone(
 ) -> None:
     faults = [f"{node}.bus_silence@2s+{seconds}s" for node, seconds in silences.items()]
     frames = recorded("hv_on@0.2s", *faults, seconds=3.0 + max(silences.values()))
-    judgement = judge_log(written(frames, tmp_path / "log.log"), rules=timing.RULES)
+    judgement = judge_log(written(frames, tmp_path / "log.log"), rules=TIMING)
     assert found(judgement) == {("node-silence", node, ""): 1 for node in silences}
 
 
 def test_lost_frames_are_gaps_and_nothing_else(tmp_path: Path) -> None:
     frames = recorded("hv_on@0.2s", "VCU.lost_frame@2s+1s", seconds=4.0)
-    judgement = judge_log(written(frames, tmp_path / "log.log"), rules=timing.RULES)
+    judgement = judge_log(written(frames, tmp_path / "log.log"), rules=TIMING)
     assert found(judgement) == {("period-gap", "VCU", "V2B_CMD"): 5}
 
 
@@ -158,7 +165,7 @@ def test_a_message_that_stops_before_a_silence_of_its_node_is_a_gap(tmp_path: Pa
 def test_a_clock_that_goes_back_is_not_judged(tmp_path: Path) -> None:
     times = [100.0, 100.1, 100.2, 0.0, 0.1, 0.2, 0.3]
     log = written([frame(time, BSU_BMS_0) for time in times], tmp_path / "back.log")
-    judgement = judge_log(log, rules=timing.RULES)
+    judgement = judge_log(log, rules=TIMING)
     assert not found(judgement)
     assert judgement.result("period-gap").examined == len(times) - 2
     # 7 frames in twice a few tenths of a second: as many as are due.

@@ -10,11 +10,16 @@ import pytest
 from conform.in_blocks import candump, essence, found, result_of
 from conform.recorded import recorded, written
 
-from swapcan.conform import Rule, Status, judge_log
-from swapcan.conform.rules.transfers import RULES
+from swapcan.conform import Rule, Status, judge_log, rule_of
+from swapcan.conform.rules.texts import RULES as TEXTS
 
 CASES = Path(__file__).with_name("cases")
 
+RULES = (
+    *TEXTS,
+    *map(rule_of, ("cells-complete", "cells-order", "probes-complete", "probes-order")),
+    rule_of("frame-numbers"),
+)
 BY_ID = {rule.id: rule for rule in RULES}
 COMPLETE, ORDER = BY_ID["cells-complete"], BY_ID["cells-order"]
 

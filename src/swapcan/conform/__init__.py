@@ -8,13 +8,20 @@ For example:
         print(result.rule.id, result.count, result.first)
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.conform import judge, logs
 from swapcan.conform.findings import Occurrence, Subject
-from swapcan.conform.judge import ConformError, Judge
+from swapcan.conform.judge import JudgeError as ConformError
 from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
-from swapcan.conform.logs import judge_log
-from swapcan.conform.registry import RULES
+from swapcan.conform.registry import RULES, rule_of
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.tolerance import Tolerance
+from typedcan.logs.window import Moment
 
 __all__ = [
     "RULES",
@@ -30,4 +37,46 @@ __all__ = [
     "Tolerance",
     "Verdict",
     "judge_log",
+    "rule_of",
 ]
+
+
+class Judge(judge.Judge):
+    """Takes the frames of one log in their order; see `swapcan.conform.judge.Judge`.
+
+    Parameters
+    ----------
+    nodes
+        Whom to judge.
+    rules
+        By what.
+    limits
+        Tolerances by name that are to have another value.
+
+    Raises
+    ------
+    ConformError
+        There is no such node or tolerance.
+    """
+
+    def __init__(
+        self,
+        nodes: Iterable[str] = PROTOCOL.nodes,
+        rules: Sequence[Rule] = RULES,
+        limits: Mapping[str, float] | None = None,
+    ) -> None:
+        super().__init__(PROTOCOL, rules, nodes=nodes, limits=limits, known=RULES)
+
+
+def judge_log(
+    log: Path | str,
+    nodes: Iterable[str] = PROTOCOL.nodes,
+    *,
+    rules: Sequence[Rule] = RULES,
+    limits: Mapping[str, float] | None = None,
+    start: Moment | None = None,
+    end: Moment | None = None,
+    watch: Callable[[int, int], None] | None = None,
+) -> Judgement:
+    """Judge a log of any kind; see `swapcan.conform.logs.judge_log`, and `Judge`."""
+    return logs.judge_log(Judge(nodes, rules, limits), log, start=start, end=end, watch=watch)

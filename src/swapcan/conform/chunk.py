@@ -1,60 +1,86 @@
-"""Some frames of a log as rules see them."""
+"""Some frames of a log as rules see them: decoded, and measured once for all rules."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
-from swapcan.conform.series import Series
+from swapcan.conform.decoded import DecodedChunk
+from swapcan.conform.measure.left_over import LeftOver
+from swapcan.conform.measure.presence import Presence, Silence
+from swapcan.conform.measure.steps import Stopped, Timing
+from swapcan.conform.measure.traffic import Traffic
 from typedcan.logs.cells.cycles import CycleTable
-from typedcan.logs.frames import FrameBlock
 from typedcan.wire.message import Message
 
 
-class Chunk:
-    """Consecutive frames of one log.
+class Chunk(DecodedChunk):
+    """Consecutive frames of one log, and what was measured of them.
 
     Parameters
     ----------
-    block
-        All of them, known or not, sound or not; its time stamps are the log's own.
-    begin
-        Time stamp of the log's first frame: block.timestamp - begin are seconds since then.
-    first_order
-        Number of the block's first frame in the log, from 0.
-    end
-        The latest time so far, in seconds since the log's begin.
+    decoded
+        The frames.
+    timing
+        The steps between them, and the silences of nodes that end here.
+    nodes
+        What came of each node up to the end of the chunk.
+    left_over
+        The frames that no message's frames hold.
     """
 
     def __init__(
         self,
-        block: FrameBlock,
-        begin: float,
-        first_order: int,
-        end: float,
-        frames: Mapping[type[Message], Series],
-        sound: Mapping[type[Message], Series],
+        decoded: DecodedChunk,
+        *,
+        timing: Timing,
+        nodes: Mapping[str, Presence],
+        left_over: LeftOver,
         cycles: Callable[[], Sequence[CycleTable]],
     ) -> None:
-        self.block = block
-        self.begin = begin
-        self.first_order = first_order
-        self.end = end
-        self._frames = frames
-        self._sound = sound
+        super().__init__(
+            decoded.block,
+            decoded.begin,
+            decoded.first_order,
+            decoded.end,
+            decoded.by_message,
+            decoded.sound_by_message,
+        )
+        self.timing = timing
+        self.nodes = nodes
+        self.left_over = left_over
         self._cycles = cycles
-
-    def frames(self, message: type[Message]) -> Series:
-        """The frames of a message with the right length, whatever their checksum."""
-        return self._frames[message]
-
-    def sound(self, message: type[Message]) -> Series:
-        """Those of them with the right checksum too: those that can be believed."""
-        return self._sound[message]
 
     @property
     def cycles(self) -> Sequence[CycleTable]:
-        """The cycles of cell voltages and probe temperatures that are complete with this chunk.
+        """The cycles of readings by group that are complete with this chunk.
 
         Their time stamps are the log's own.
         """
         return self._cycles()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogEnd:
+    """What is known when a log has ended.
+
+    Parameters
+    ----------
+    time
+        The latest time, in seconds since the log's begin.
+    nodes, messages
+        What came of each node and each message.
+    silent
+        The nodes that are silent at the end.
+    stopped
+        The last frame of each message, and of each place in the cycle of those of several.
+    traffic
+        How many frames of each message came, and on which channel.
+    """
+
+    time: float
+    nodes: Mapping[str, Presence]
+    messages: Mapping[type[Message], Presence]
+    silent: Sequence[Silence]
+    stopped: Sequence[Stopped]
+    traffic: Traffic

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -83,13 +83,16 @@ class Findings:
     Parameters
     ----------
     nodes
-        Those that are judged; what concerns others is passed over.
+        Those that are judged, one at least, in the protocol's order; what concerns others is
+        passed over.
     limits
         Tolerances by name, where they are not to have their own value.
     """
 
-    def __init__(self, nodes: frozenset[str], limits: Mapping[str, float] | None = None) -> None:
-        self.nodes = nodes
+    def __init__(self, nodes: Sequence[str], limits: Mapping[str, float] | None = None) -> None:
+        self.nodes = frozenset(nodes)
+        self.first_node = nodes[0]
+        """Whom findings are noted for that are nobody's fault."""
         self.examined: Counter[str] = Counter()
         self.count = 0
         self.frames = 0

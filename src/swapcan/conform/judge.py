@@ -9,29 +9,34 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.before import Before
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
+from swapcan.conform.decoded import DecodedChunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.judgement import Judgement, RuleResult
 from swapcan.conform.measure.homes import Homes, is_judged
+from swapcan.conform.measure.left_over import keys_of, left_over
 from swapcan.conform.measure.load import LoadMeter
 from swapcan.conform.measure.periods import PeriodMeter
-from swapcan.conform.registry import RULES
+from swapcan.conform.measure.steps import StepMeter
+from swapcan.conform.measure.traffic import Traffic
 from swapcan.conform.rule import Rule
+from swapcan.conform.rules import rules_for
 from swapcan.conform.series import Series
-from swapcan.log_protocol import CELLS, OWN, PROBES
+from typedcan.logs import protocol as logs
 from typedcan.logs.cells.cycles import CellColumns, CycleTable
 from typedcan.logs.checks import checksums_right, has_checksum, rows_where
 from typedcan.logs.columns import MessageColumns
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.plan import Mode
+from typedcan.logs.protocol import known as known_protocol
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 
-class ConformError(TypedcanError, ValueError):
+class JudgeError(TypedcanError, ValueError):
     """What is to be judged, or how, makes no sense."""
 
 
@@ -43,36 +48,50 @@ class Judge:
 
     Parameters
     ----------
-    nodes
-        Whom to judge.
+    protocol
+        What frames are decoded by.
     rules
-        By what.
+        By what to judge; None: by those that its model gives.
+    nodes
+        Whom to judge; None: all.
     limits
         Tolerances by name that are to have another value.
+    known
+        Further rules whose tolerances may be named, though they do not judge.
 
     Raises
     ------
-    ConformError
+    JudgeError
         There is no such node or tolerance.
     """
 
     def __init__(
         self,
-        nodes: Iterable[str] = PROTOCOL.nodes,
-        rules: Sequence[Rule] = RULES,
+        protocol: Protocol,
+        rules: Sequence[Rule] | None = None,
+        *,
+        nodes: Iterable[str] | None = None,
         limits: Mapping[str, float] | None = None,
+        known: Sequence[Rule] = (),
     ) -> None:
-        self.nodes = tuple(nodes)
+        rules = rules_for(protocol) if rules is None else rules
+        self.nodes = protocol.nodes if nodes is None else tuple(nodes)
+        self._protocol = protocol
         self._limits = dict(limits or {})
-        _check(self.nodes, self._limits, rules)
-        judged = frozenset(self.nodes)
+        _check(protocol, self.nodes, self._limits, (*rules, *known))
+        judged = [node for node in protocol.nodes if node in self.nodes]
         self._findings = [(rule, Findings(judged, self._limits)) for rule in rules]
         self._watchers = [
-            rule.watch(findings) for rule, findings in self._findings if judged & set(rule.judges)
+            rule.watch(findings)
+            for rule, findings in self._findings
+            if not set(judged).isdisjoint(rule.judges)
         ]
-        self._decoder = Decoder(OWN.messages, mode=Mode.RAW)
-        self._cells = _Cells()
-        self._load, self._periods = LoadMeter(), PeriodMeter()
+        decoded_by = known_protocol(protocol.model)
+        self._decoder = Decoder(decoded_by.messages, mode=Mode.RAW)
+        self._readings = _Readings(decoded_by)
+        self._steps, self._traffic = StepMeter(protocol), Traffic(protocol)
+        self._keys = keys_of(protocol)
+        self._load, self._periods = LoadMeter(), PeriodMeter(protocol)
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
         self._homes = Homes()
         self._begin: float | None = None
@@ -87,38 +106,47 @@ class Judge:
         if self._begin is None:
             self._begin = float(block.timestamp[0])
         self._end = max(self._end, float(block.timestamp.max()) - self._begin)
-        chunk = self._chunk(block, self._begin)
+        chunk = self._measured(self._decoded(block, self._begin))
         for watcher in self._watchers:
             watcher.take(chunk)
-        self._load.take(chunk)
-        self._periods.take(chunk)
         self._orders += len(block)
 
     def finish(self, log: str = "", digest: str = "", damage: Iterable[str] = ()) -> Judgement:
         """Judge what is left, and say what was found."""
+        presences = self._steps.presences
+        end = LogEnd(
+            time=self._end,
+            nodes=presences.nodes,
+            messages=presences.messages,
+            silent=presences.silent_at(self._end),
+            stopped=tuple(self._steps.stopped()),
+            traffic=self._traffic,
+        )
         for watcher in self._watchers:
-            watcher.finish(self._end)
-        seen = {message.SENDER for message in PROTOCOL.messages if self._counts[message.NAME]}
+            watcher.finish(end)
+        messages = self._protocol.messages
+        seen = {message.SENDER for message in messages if self._counts[message.NAME]}
         return Judgement(
+            protocol=self._protocol,
             log=log,
             digest=digest,
             begin=self._begin or 0.0,
             seconds=self._end,
             frames=dict(self._counts),
             nodes=self.nodes,
-            seen=tuple(node for node in PROTOCOL.nodes if node in seen),
+            seen=tuple(node for node in self._protocol.nodes if node in seen),
             results=tuple(_result(rule, findings) for rule, findings in self._findings),
-            periods=self._periods.finish(self._end),
-            load=self._load.finish(self._end),
+            periods=self._periods.finish(presences.messages),
+            load=self._load.finish(self._end, self._traffic),
             limits=self._limits,
             damage=tuple(damage),
         )
 
-    def _chunk(self, block: FrameBlock, begin: float) -> Chunk:
+    def _decoded(self, block: FrameBlock, begin: float) -> DecodedChunk:
         decoded = self._decoder.decode(block)
         frames: dict[type[Message], Series] = {}
         sound: dict[type[Message], Series] = {}
-        for message in PROTOCOL.messages:
+        for message in self._protocol.messages:
             columns = decoded.messages.get(message.NAME)
             columns = None if columns is None else self._own(message, columns)
             right = None if columns is None else _right(message, columns)
@@ -128,8 +156,21 @@ class Judge:
             sound[message] = self._series(message, columns, begin, sound=True)
             self._counts[message.NAME] += frames[message].fresh
         self._counts[""] += len(block) - sum(each.fresh for each in frames.values())
-        cycles = cache(lambda: self._cells.cycles(block, self._homes.channels))
-        return Chunk(block, begin, self._orders, self._end, frames, sound, cycles)
+        return DecodedChunk(block, begin, self._orders, self._end, frames, sound)
+
+    def _measured(self, chunk: DecodedChunk) -> Chunk:
+        """The chunk with what rules need to know of it, measured once for all of them."""
+        timing = self._steps.take(chunk)
+        self._traffic.take(chunk)
+        self._load.take(chunk)
+        self._periods.take(timing)
+        return Chunk(
+            chunk,
+            timing=timing,
+            nodes=self._steps.presences.nodes,
+            left_over=left_over(chunk, self._keys),
+            cycles=cache(lambda: self._readings.cycles(chunk.block, self._homes.channels)),
+        )
 
     def _series(
         self, message: type[Message], columns: MessageColumns | None, begin: float, *, sound: bool
@@ -150,13 +191,15 @@ class Judge:
         return columns if good.all() else rows_where(columns, good)
 
 
-class _Cells:
-    """Puts cells and probes together, where a rule asks for them; then it has to ask each time."""
+class _Readings:
+    """Puts cycles of readings together, where a rule asks for them; then it asks each time."""
 
-    def __init__(self) -> None:
-        wanted = dict.fromkeys((CELLS.message, PROBES.message, CELLS.totals))
-        self._decoder = Decoder(OWN.messages, reserved=OWN.reserved, wanted=wanted)
-        self._columns = CellColumns(OWN.readings)
+    def __init__(self, protocol: logs.Protocol) -> None:
+        wanted = dict.fromkeys(
+            name for each in protocol.readings for name in (each.message, each.totals)
+        )
+        self._decoder = Decoder(protocol.messages, reserved=protocol.reserved, wanted=wanted)
+        self._columns = CellColumns(protocol.readings)
 
     def cycles(
         self, block: FrameBlock, homes: Mapping[str, int | str | None]
@@ -190,13 +233,15 @@ def _result(rule: Rule, findings: Findings) -> RuleResult:
     )
 
 
-def _check(nodes: Sequence[str], limits: Mapping[str, float], rules: Sequence[Rule]) -> None:
+def _check(
+    protocol: Protocol, nodes: Sequence[str], limits: Mapping[str, float], rules: Sequence[Rule]
+) -> None:
     if not nodes:
-        raise ConformError(f"judge whom? nodes are {', '.join(PROTOCOL.nodes)}")
+        raise JudgeError(f"judge whom? nodes are {', '.join(protocol.nodes)}")
     for node in nodes:
-        if node not in PROTOCOL.nodes:
-            raise ConformError(f"there is no node {node!r}; known: {', '.join(PROTOCOL.nodes)}")
-    known = {tolerance.name for rule in (*RULES, *rules) for tolerance in rule.tolerances}
+        if node not in protocol.nodes:
+            raise JudgeError(f"there is no node {node!r}; known: {', '.join(protocol.nodes)}")
+    known = {tolerance.name for rule in rules for tolerance in rule.tolerances}
     for name in limits:
         if name not in known:
-            raise ConformError(f"there is no tolerance {name!r}; known: {', '.join(sorted(known))}")
+            raise JudgeError(f"there is no tolerance {name!r}; known: {', '.join(sorted(known))}")

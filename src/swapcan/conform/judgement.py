@@ -10,6 +10,7 @@ from swapcan.conform.findings import Occurrence
 from swapcan.conform.measure.load import Load
 from swapcan.conform.measure.periods import Periods
 from swapcan.conform.rule import Rule, Severity
+from typedcan.wire.protocol import Protocol
 
 
 class Verdict(Enum):
@@ -74,6 +75,8 @@ class Judgement:
 
     Parameters
     ----------
+    protocol
+        What the log was judged by.
     log
         Name of the log, as it was given.
     digest
@@ -98,6 +101,7 @@ class Judgement:
         What of the log could not be read, a line each.
     """
 
+    protocol: Protocol
     log: str
     digest: str
     begin: float

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.judge import Judge
 from swapcan.conform.judgement import Judgement
-from swapcan.conform.registry import RULES
-from swapcan.conform.rule import Rule
 from typedcan.logs.read import open_log
 from typedcan.logs.window import Moment, within
 
@@ -19,11 +16,9 @@ _BLOCK = 1 << 17
 
 
 def judge_log(
+    judge: Judge,
     log: Path | str,
-    nodes: Iterable[str] = PROTOCOL.nodes,
     *,
-    rules: Sequence[Rule] = RULES,
-    limits: Mapping[str, float] | None = None,
     start: Moment | None = None,
     end: Moment | None = None,
     watch: Callable[[int, int], None] | None = None,
@@ -32,12 +27,8 @@ def judge_log(
 
     Parameters
     ----------
-    nodes
-        Whom to judge.
-    rules
-        By what.
-    limits
-        Tolerances by name that are to have another value.
+    judge
+        A new one, which says whom to judge and by what.
     start, end
         The part of the log.
     watch
@@ -47,13 +38,10 @@ def judge_log(
     ------
     LogError
         The log cannot be opened. Damage raises nothing: `Judgement.damage` says so.
-    ConformError
-        There is no such node or tolerance.
     TimeError
         ``start`` or ``end`` do not fit the log.
     """
     path = Path(log)
-    judge = Judge(nodes, rules, limits)
     frames = 0
     with open_log(path, _BLOCK) as source:
         for block in within(source, start, end):

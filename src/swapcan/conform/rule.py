@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
@@ -42,8 +42,8 @@ class Watcher(ABC):
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames; what a chunk holds is not to be kept."""
 
-    def finish(self, end: float) -> None:  # noqa: B027  (most rules have nothing left)
-        """Judge what is left; the log ends at ``end``, in seconds since its begin."""
+    def finish(self, end: LogEnd) -> None:  # noqa: B027  (most rules have nothing left)
+        """Judge what is left when the log has ended."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +57,8 @@ class Rule:
     title, purpose
         What is asked for in a few words, and why in one or two sentences.
     clause
-        Where the standard asks for it, such as ``5.2.1, Table 14 row 3``.
+        Where the standard asks for it, such as ``5.2.1, Table 14 row 3``; empty where no place of
+        it does.
     severity
         How grave it is to break it.
     judges
@@ -71,7 +72,7 @@ class Rule:
     id: str
     title: Text
     purpose: Text
-    clause: str
+    clause: str = ""
     severity: Severity
     judges: tuple[str, ...]
     tolerances: tuple[Tolerance, ...] = ()

@@ -17,8 +17,8 @@ from swapcan.conform.live.reactions.troubled_commands import (
     WRONG_CHECKSUM,
 )
 from swapcan.conform.live.scenario import Scenario, ScenarioError
+from swapcan.conform.registry import rule_of
 from swapcan.conform.rules.charging import charge_stops_on_fault
-from swapcan.conform.rules.requests import answer_in_time
 from swapcan.conform.rules.voltage import hv_off_in_time
 from swapcan.conform.text import Text
 from swapcan.simulate.faults import planned_fault
@@ -45,7 +45,7 @@ SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
                 plays=("VCU",),
                 plan=plan_of("ask@0.5s"),
                 seconds=4.0,
-                rules=(answer_in_time.RULE,),
+                rules=(rule_of("answer-in-time"),),
             ),
             Scenario(
                 name="silent-vcu",

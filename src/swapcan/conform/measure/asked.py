@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.decoded import DecodedChunk
 from typedcan.wire.message import Message
-from typedcan.wire.protocol import Request
+from typedcan.wire.protocol import Protocol, Request
 
-REQUESTS: Mapping[type[Message], Request] = {
-    message: request for request in PROTOCOL.requests for message in request.answers
-}
-"""What asks for each message that is sent on request."""
+
+def requests_of(protocol: Protocol) -> dict[type[Message], Request]:
+    """What asks for each message that is sent on request."""
+    return {message: request for request in protocol.requests for message in request.answers}
 
 
 class Asked:
     """Follows the requests of one log."""
 
-    def __init__(self) -> None:
+    def __init__(self, protocol: Protocol) -> None:
+        self._requests = requests_of(protocol)
         self._last: dict[str, int] = {}
 
-    def changes(self, chunk: Chunk, message: type[Message]) -> NDArray[np.int64]:
+    def changes(self, chunk: DecodedChunk, message: type[Message]) -> NDArray[np.int64]:
         """Where in the log its request changed, ascending: the last time before, and here."""
-        field = REQUESTS[message].field
+        field = self._requests[message].field
         series = chunk.sound(field.message)
         raw = series.raw(field.field)
         rows = np.flatnonzero(raw[1:] != raw[:-1]) + 1

@@ -35,7 +35,8 @@ class Homes:
 
 
 def is_judged(message: type[Message], block: FrameBlock, rows: Rows) -> NDArray[np.bool_]:
-    """Which of these frames are classic data frames in extended format, of the right length."""
-    good: NDArray[np.bool_] = (block.flags[rows] & _KIND) == np.uint8(FrameFlag.EXTENDED)
+    """Which of these frames are classic data frames, of the right identifier's and own length."""
+    kind = FrameFlag.EXTENDED if message.EXTENDED else 0
+    good: NDArray[np.bool_] = (block.flags[rows] & _KIND) == np.uint8(kind)
     good &= block.length[rows] == message.LENGTH
     return good

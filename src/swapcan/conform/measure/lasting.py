@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from swapcan.conform.chunk import LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Said, Subject
 from swapcan.conform.measure.beside import fresh
 from swapcan.conform.rule import Watcher
@@ -167,7 +168,7 @@ class LastingWatcher(Watcher):
         self._all.append(made)
         return made
 
-    def finish(self, end: float) -> None:  # noqa: ARG002  (what goes on ends with its last frame)
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002  (what goes on ends with its last frame)
         """End what goes on."""
         for each in self._all:
             each.finish()

@@ -6,13 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swapcan.conform.chunk import Chunk
-from swapcan.conform.measure.traffic import Channel, Traffic
+from swapcan.conform.decoded import DecodedChunk
+from swapcan.conform.measure.traffic import Channel, Traffic, bits_of
 from typedcan.logs.frames import FrameFlag
 from typedcan.model.frame_time import Bits
-
-BIT_RATE = 250_000
-"""Bit/s, 4.2.2."""
 
 _LENGTHS = 256
 """More than any number of bytes that a block can hold."""
@@ -34,6 +31,8 @@ class Load:
     expected, expected_stuffed
         What the messages seen on it make at their printed periods, for the pack's numbers;
         without those that are sent on events or on request.
+    bit_rate
+        Bit/s, as the protocol states it for the bus.
     """
 
     channel: str
@@ -43,18 +42,17 @@ class Load:
     own_stuffed: float
     expected: float
     expected_stuffed: float
+    bit_rate: int
 
 
 class LoadMeter:
     """Counts the bits of one log."""
 
     def __init__(self) -> None:
-        self._traffic = Traffic()
         self._bits: dict[Channel, Bits] = {}
 
-    def take(self, chunk: Chunk) -> None:
+    def take(self, chunk: DecodedChunk) -> None:
         """Count the next frames."""
-        self._traffic.take(chunk)
         block = chunk.block
         # One number per kind of frame, so that a single count tells all of them apart.
         kinds = block.channel.astype(np.intp)
@@ -71,26 +69,31 @@ class LoadMeter:
             channel = block.channels[place]
             self._bits[channel] = self._bits.get(channel, Bits()).plus(bits, int(counts[kind]))
 
-    def finish(self, end: float) -> tuple[Load, ...]:
-        """The load of each channel, in the order in which they came; none of a log of no length."""
-        return tuple(self._load(channel, end) for channel in self._bits) if end > 0 else ()
+    def finish(self, end: float, traffic: Traffic) -> tuple[Load, ...]:
+        """The load of each channel, in the order in which they came.
 
-    def _load(self, channel: Channel, seconds: float) -> Load:
+        None of a log of no length, nor of a bus whose bit rate the protocol does not state.
+        """
+        if end <= 0:
+            return ()
+        rates = {channel: traffic.bit_rate(channel) for channel in self._bits}
+        return tuple(self._load(each, end, rate, traffic) for each, rate in rates.items() if rate)
+
+    def _load(self, channel: Channel, seconds: float, rate: int, traffic: Traffic) -> Load:
         own = expected = Bits()
-        for message, home in self._traffic.channels.items():
+        for message, home in traffic.channels.items():
             if home == channel:
-                bits = Bits.of(message.LENGTH, extended=True)
-                own = own.plus(bits, self._traffic.frames[message])
-        for message in self._traffic.always(channel):
-            bits = Bits.of(message.LENGTH, extended=True)
-            expected = expected.plus(bits, self._traffic.rate(message))
+                own = own.plus(bits_of(message), traffic.frames[message])
+        for message in traffic.always(channel):
+            expected = expected.plus(bits_of(message), traffic.rate(message))
         measured = self._bits[channel]
         return Load(
             channel="" if channel is None else str(channel),
-            measured=measured.bare / seconds / BIT_RATE,
-            measured_stuffed=measured.stuffed / seconds / BIT_RATE,
-            own=own.bare / seconds / BIT_RATE,
-            own_stuffed=own.stuffed / seconds / BIT_RATE,
-            expected=expected.bare / BIT_RATE,
-            expected_stuffed=expected.stuffed / BIT_RATE,
+            measured=measured.bare / seconds / rate,
+            measured_stuffed=measured.stuffed / seconds / rate,
+            own=own.bare / seconds / rate,
+            own_stuffed=own.stuffed / seconds / rate,
+            expected=expected.bare / rate,
+            expected_stuffed=expected.stuffed / rate,
+            bit_rate=rate,
         )

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.measure.presence import Presence
 from swapcan.conform.measure.spread import Spread
-from swapcan.conform.measure.steps import StepMeter, Steps
+from swapcan.conform.measure.steps import Steps, Timing
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 COLUMNS = 600
 """Spans that a log is cut into for a plot."""
@@ -58,35 +59,38 @@ class Periods:
 class PeriodMeter:
     """Measures the steps between the frames of one log."""
 
-    def __init__(self) -> None:
-        self._meter = StepMeter()
-        self._spread = dict.fromkeys(PROTOCOL.messages, Spread())
+    def __init__(self, protocol: Protocol) -> None:
+        self._messages = protocol.messages
+        self._spread = dict.fromkeys(protocol.messages, Spread())
         self._spans: dict[type[Message], _Spans] = {}
 
-    def take(self, chunk: Chunk) -> None:
-        """Measure the next frames."""
-        for message, steps in self._meter.take(chunk).steps.items():
+    def take(self, timing: Timing) -> None:
+        """Note the steps of the next frames."""
+        for message, steps in timing.steps.items():
             self._spread[message] += steps.spread
             if message not in self._spans:
                 self._spans[message] = _Spans()
             if len(steps):
                 self._spans[message].take(steps)
 
-    def finish(self, end: float) -> tuple[Periods, ...]:  # noqa: ARG002
-        """One per message that has a period and came, in the standard's order."""
+    def finish(self, seen: Mapping[type[Message], Presence]) -> tuple[Periods, ...]:
+        """One per message that has a period and came, in the protocol's order.
+
+        ``seen`` is what came of each message.
+        """
         return tuple(
-            self._periods(message, message.PERIOD, self._spans[message])
-            for message in PROTOCOL.messages
+            self._periods(message, message.PERIOD, seen[message].frames)
+            for message in self._messages
             if message.PERIOD and message in self._spans
         )
 
-    def _periods(self, message: type[Message], period: float, spans: _Spans) -> Periods:
+    def _periods(self, message: type[Message], period: float, frames: int) -> Periods:
         spread = self._spread[message]
-        time, low, high = spans.columns()
+        time, low, high = self._spans[message].columns()
         return Periods(
             message=message.NAME,
             period=period,
-            frames=self._meter.messages[message].frames,
+            frames=frames,
             mean=spread.mean,
             deviation=spread.deviation,
             shortest=spread.shortest if spread.count else math.nan,

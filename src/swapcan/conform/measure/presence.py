@@ -3,30 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.decoded import DecodedChunk
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 SILENT = 5.0
 """A node is silent after so many of the shortest period of what it sends."""
 
 _Key = TypeVar("_Key")
 
-_NODES = {node: number for number, node in enumerate(PROTOCOL.nodes, 1)}
 
-PERIODS: Mapping[type[Message], float] = {
-    message: message.PERIOD
-    for message in PROTOCOL.messages
-    if message.PERIOD and message not in PROTOCOL.conditional
-}
-"""The periods of the messages that are sent always, in seconds."""
+def periods_of(protocol: Protocol) -> dict[type[Message], float]:
+    """The periods of the messages that are sent always, in seconds."""
+    return {
+        message: message.PERIOD
+        for message in protocol.messages
+        if message.PERIOD and message not in protocol.conditional
+    }
 
 
 class Silence(NamedTuple):
@@ -88,22 +87,25 @@ class Presence:
 class Presences:
     """Follows all nodes and messages through one log."""
 
-    def __init__(self) -> None:
+    def __init__(self, protocol: Protocol) -> None:
         self.nodes: dict[str, Presence] = {}
         self.messages: dict[type[Message], Presence] = {}
+        self._protocol = protocol
+        self._numbers = {node: number for number, node in enumerate(protocol.nodes, 1)}
+        self._periods = periods_of(protocol)
 
-    def take(self, chunk: Chunk) -> tuple[list[Silence], list[Start]]:
+    def take(self, chunk: DecodedChunk) -> tuple[list[Silence], list[Start]]:
         """Go on; what ended and what began in the next frames, in no order."""
-        owner = np.zeros(len(chunk.block), np.uint8)
-        for message in PROTOCOL.messages:
+        owner = np.zeros(len(chunk.block), np.min_scalar_type(len(self._numbers)))
+        for message in self._protocol.messages:
             series = chunk.frames(message)
             if series.fresh:
                 order, time = series.order[series.first :], series.time[series.first :]
-                owner[order - chunk.first_order] = _NODES[message.SENDER]
+                owner[order - chunk.first_order] = self._numbers[message.SENDER]
                 _go_on(self.messages, message, time, order)
         silences: list[Silence] = []
         starts: list[Start] = []
-        for node, number in _NODES.items():
+        for node, number in self._numbers.items():
             rows = np.flatnonzero(owner == number)
             if len(rows):
                 time = chunk.block.timestamp[rows] - chunk.begin
@@ -114,7 +116,7 @@ class Presences:
         """Seconds after which a node is silent, for what it sent up to a frame of the log."""
         periods = (
             period
-            for message, period in PERIODS.items()
+            for message, period in self._periods.items()
             if node == message.SENDER
             and message in self.messages
             and (order is None or self.messages[message].first_order <= order)

@@ -7,9 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.measure.presence import Silence
-from swapcan.conform.measure.steps import StepMeter, Timing
 from swapcan.messages import B2V_ST1, BmsState, C2B_ACStatus, ChargeLine, ChargeState
 
 HV_ON = (BmsState.PRECHARGE, BmsState.HV_CLOSED)
@@ -52,20 +51,13 @@ class KnownSilence(NamedTuple):
 
 
 class Silences:
-    """Follows the silences of one log.
+    """Follows the silences of one log."""
 
-    Parameters
-    ----------
-    meter
-        What finds them.
-    """
-
-    def __init__(self, meter: StepMeter) -> None:
-        self._meter = meter
+    def __init__(self) -> None:
         self._last: dict[str, Known] = {}
         self._unplugged = -1  # number of the last frame that told that the gun was off
 
-    def take(self, chunk: Chunk, timing: Timing) -> list[KnownSilence]:
+    def take(self, chunk: Chunk) -> list[KnownSilence]:
         """The silences that ended in the next frames."""
         found = [
             KnownSilence(
@@ -73,9 +65,9 @@ class Silences:
                 self._when(chunk, each),
                 self._was_unplugged(chunk, each.order, each.next_order),
             )
-            for each in timing.silences
+            for each in chunk.timing.silences
         ]
-        for node, seen in self._meter.nodes.items():
+        for node, seen in chunk.nodes.items():
             if seen.last_order >= chunk.first_order:
                 self._last[node] = _known(chunk, seen.last_order)
         status = chunk.sound(B2V_ST1)
@@ -84,11 +76,11 @@ class Silences:
             self._unplugged = int(status.order[off[-1]])
         return found
 
-    def finish(self, end: float) -> list[KnownSilence]:
+    def finish(self, end: LogEnd) -> list[KnownSilence]:
         """The nodes that are silent when the log ends."""
         return [
             KnownSilence(each, self._last[each.node], self._unplugged > each.order)
-            for each in self._meter.silent_at(end)
+            for each in end.silent
         ]
 
     def _when(self, chunk: Chunk, silence: Silence) -> Known:

@@ -10,28 +10,29 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.decoded import DecodedChunk
 from swapcan.conform.measure.asked import Asked
-from swapcan.conform.measure.presence import Presence, Presences, Silence, Start
+from swapcan.conform.measure.presence import Presences, Silence, Start
 from swapcan.conform.measure.spread import Spread, spread_of
 from swapcan.conform.series import Series
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _REQUEST_ENDS = 3.0
 """Periods after which a message that is sent on request is taken to be requested anew."""
 
-KEYED: Mapping[type[Message], tuple[str, str]] = {
-    transfer.messages[0]: (transfer.group.field, transfer.frame_number.field)
-    for transfer in PROTOCOL.transfers
-    if transfer.group and transfer.frame_number
-}
-"""Messages of several frames a cycle: the fields of the CSC and of the frame number."""
+
+def keyed(protocol: Protocol) -> dict[type[Message], tuple[str, str]]:
+    """Messages of several frames a cycle: the fields of the group and of the frame number."""
+    return {
+        transfer.messages[0]: (transfer.group.field, transfer.frame_number.field)
+        for transfer in protocol.transfers
+        if transfer.group and transfer.frame_number
+    }
 
 
 class Steps:
@@ -96,9 +97,12 @@ class Steps:
         )
 
 
-def key_of(series: Series) -> NDArray[np.uint16]:
-    """The CSC, and in the lower eight bits the frame number, of the new rows of a series."""
-    group, number = (series.new_raw(field) for field in KEYED[series.message])
+def key_of(series: Series, fields: tuple[str, str]) -> NDArray[np.uint16]:
+    """The group, and in the lower eight bits the frame number, of the new rows of a series.
+
+    ``fields`` are those of `keyed`.
+    """
+    group, number = (series.new_raw(field) for field in fields)
     return group.astype(np.uint16) * np.uint16(256) + number.astype(np.uint16)
 
 
@@ -136,52 +140,77 @@ class Timing:
 
 
 class StepMeter:
-    """Measures the steps of one log; those who ask for the same chunk share the work."""
+    """Measures the steps of one log, chunk after chunk."""
 
-    def __init__(self) -> None:
-        self._log = _Log()
+    def __init__(self, protocol: Protocol) -> None:
+        self.presences = Presences(protocol)
+        self._protocol = protocol
+        self._asked = Asked(protocol)
+        self._keyed = keyed(protocol)
+        self._tables: dict[type[Message], _Table] = {}
 
-    def take(self, chunk: Chunk) -> Timing:
+    def take(self, chunk: DecodedChunk) -> Timing:
         """Measure the next frames."""
-        if chunk not in _TAKEN:
-            _TAKEN[chunk] = self._log, self._log.take(chunk)
-        self._log, timing = _TAKEN[chunk]
-        return timing
-
-    @property
-    def nodes(self) -> Mapping[str, Presence]:
-        """The nodes that sent up to now."""
-        return self._log.presences.nodes
-
-    @property
-    def messages(self) -> Mapping[type[Message], Presence]:
-        """The messages that came up to now."""
-        return self._log.presences.messages
-
-    def silent_at(self, end: float) -> list[Silence]:
-        """The nodes that are silent when the log ends at a time."""
-        return self._log.presences.silent_at(end)
+        known = [seen.silences[-1] for seen in self.presences.nodes.values() if seen.silences]
+        silences, starts = self.presences.take(chunk)
+        steps: dict[type[Message], Steps] = {}
+        for message in self._protocol.messages:
+            series = chunk.frames(message)
+            if message.PERIOD and series.fresh:
+                own = [each for each in (*known, *silences) if each.node == message.SENDER]
+                steps[message] = self._judged(self._steps(series, chunk), message.PERIOD, own)
+            elif message in self._protocol.conditional:
+                self._asked.changes(chunk, message)
+        return Timing(steps, tuple(silences), tuple(starts))
 
     def stopped(self) -> Iterator[Stopped]:
         """What came last of each message, and of each place in the cycle of those of several."""
-        for message, seen in self.messages.items():
-            if message in KEYED:
-                yield from self._log.tables[message].stopped()
+        for message, seen in self.presences.messages.items():
+            if message in self._keyed:
+                yield from self._tables[message].stopped()
             else:
                 yield Stopped(message, "", seen.last, seen.last_order)
+
+    def _steps(self, series: Series, chunk: DecodedChunk) -> Steps:
+        message = series.message
+        if message in self._keyed:
+            if message not in self._tables:
+                self._tables[message] = _Table(message, self._keyed[message])
+            return self._tables[message].take(series)
+        order = series.order
+        steps = Steps(message, series.time[1:], np.diff(series.time), None, lambda at: order[at])
+        if message in self._protocol.conditional:
+            changes = self._asked.changes(chunk, message)
+            steps = steps.only(np.diff(np.searchsorted(changes, order)) == 0)
+        return steps
+
+    def _judged(self, steps: Steps, period: float, silences: list[Silence]) -> Steps:
+        """Those that say something about the period."""
+        if len(steps) and steps.length.min() < 0:
+            steps = steps.only(steps.length >= 0)
+        if steps.message in self._protocol.conditional:
+            steps = steps.only(steps.length <= _REQUEST_ENDS * period)
+        if silences:
+            # The last silence that ended by then: a step that is not across it is across none.
+            ends = np.array([silence.end for silence in silences])
+            middles = np.array([-np.inf, *(silence.middle for silence in silences)])
+            last = np.searchsorted(ends, steps.time, "right")
+            steps = steps.only(steps.time - steps.length >= middles[last])
+        return steps
 
 
 class _Table:
     """When and where each frame of a cycle came last."""
 
-    def __init__(self, message: type[Message]) -> None:
+    def __init__(self, message: type[Message], fields: tuple[str, str]) -> None:
         self.message = message
+        self._fields = fields
         self._time = np.full(1 << 16, np.nan)
         self._order = np.full(1 << 16, -1, np.int64)
 
     def take(self, series: Series) -> Steps:
         """The steps of the new rows."""
-        keys = key_of(series)
+        keys = key_of(series, self._fields)
         by = np.argsort(keys, kind="stable")
         keys, time = keys[by], series.time[series.first :][by]
         order = series.order[series.first :]
@@ -207,59 +236,3 @@ class _Table:
             yield Stopped(
                 self.message, frame_of_cycle(key), float(self._time[key]), int(self._order[key])
             )
-
-
-class _Log:
-    """What has to be known of one log from one chunk to the next."""
-
-    def __init__(self) -> None:
-        self.presences = Presences()
-        self.asked = Asked()
-        self.tables: dict[type[Message], _Table] = {}
-
-    def take(self, chunk: Chunk) -> Timing:
-        """Go on with the next frames."""
-        known = [seen.silences[-1] for seen in self.presences.nodes.values() if seen.silences]
-        silences, starts = self.presences.take(chunk)
-        steps: dict[type[Message], Steps] = {}
-        for message in PROTOCOL.messages:
-            series = chunk.frames(message)
-            if message.PERIOD and series.fresh:
-                own = [each for each in (*known, *silences) if each.node == message.SENDER]
-                steps[message] = _judged(self._steps(series, chunk), message.PERIOD, own)
-            elif message in PROTOCOL.conditional:
-                self.asked.changes(chunk, message)
-        return Timing(steps, tuple(silences), tuple(starts))
-
-    def _steps(self, series: Series, chunk: Chunk) -> Steps:
-        if series.message in KEYED:
-            if series.message not in self.tables:
-                self.tables[series.message] = _Table(series.message)
-            return self.tables[series.message].take(series)
-        order = series.order
-        steps = Steps(
-            series.message, series.time[1:], np.diff(series.time), None, lambda steps: order[steps]
-        )
-        if series.message in PROTOCOL.conditional:
-            changes = self.asked.changes(chunk, series.message)
-            steps = steps.only(np.diff(np.searchsorted(changes, order)) == 0)
-        return steps
-
-
-def _judged(steps: Steps, period: float, silences: list[Silence]) -> Steps:
-    """Those that say something about the period."""
-    if len(steps) and steps.length.min() < 0:
-        steps = steps.only(steps.length >= 0)
-    if steps.message in PROTOCOL.conditional:
-        steps = steps.only(steps.length <= _REQUEST_ENDS * period)
-    if silences:
-        # The last silence that ended by then: a step that is not across it is across none before.
-        ends = np.array([silence.end for silence in silences])
-        middles = np.array([-np.inf, *(silence.middle for silence in silences)])
-        last = np.searchsorted(ends, steps.time, "right")
-        steps = steps.only(steps.time - steps.length >= middles[last])
-    return steps
-
-
-_TAKEN: WeakKeyDictionary[Chunk, tuple[_Log, Timing]] = WeakKeyDictionary()
-"""What was measured of each chunk that is still in use, and the log that it belongs to."""

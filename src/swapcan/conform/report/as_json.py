@@ -1,7 +1,8 @@
 """Judgements as JSON, for programs.
 
 One object: ``format`` ("swapcan-conform"), ``version`` (1), ``language`` of all texts, ``protocol``
-(``name``, ``digest``), ``verdict`` of all logs together, and ``logs``, each of them an object:
+(``name``, ``digest``; null without logs), ``verdict`` of all logs together, and ``logs``, each of
+them an object:
 
 - ``log``, ``digest`` (SHA-256), ``verdict`` ("conforms", "violates", "not_judged");
 - ``begin`` (time stamp of the first frame), ``begin_utc`` (null where it is no date), ``seconds``;
@@ -29,7 +30,6 @@ from dataclasses import asdict
 from numbers import Integral, Real
 from typing import Any
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult
 from swapcan.conform.measure.periods import Periods
@@ -40,11 +40,12 @@ from typedcan.shell.printing import printable_json
 
 def to_json(judgements: Sequence[Judgement], language: Language) -> str:
     """The JSON text, its keys always in the same order; see this module for their meaning."""
+    protocol = judgements[0].protocol if judgements else None
     document = {
         "format": "swapcan-conform",
         "version": 1,
         "language": language,
-        "protocol": {"name": PROTOCOL.name, "digest": PROTOCOL.digest},
+        "protocol": protocol and {"name": protocol.name, "digest": protocol.digest},
         "verdict": facts.overall(judgements).name.lower(),
         "logs": [_log(judgement, language) for judgement in judgements],
     }
@@ -66,7 +67,8 @@ def _log(judgement: Judgement, language: Language) -> dict[str, Any]:
         "rules": [_rule(judgement, result, language) for result in judgement.results],
         "periods": [_periods(each) for each in judgement.periods],
         "load": [
-            {name: _plain(value) for name, value in asdict(load).items()} for load in judgement.load
+            {name: _plain(value) for name, value in asdict(load).items() if name != "bit_rate"}
+            for load in judgement.load
         ],
     }
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Occurrence
 from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
 from swapcan.conform.report import facts, figures, words
@@ -66,7 +65,7 @@ def _properties(judgement: Judgement, language: Language) -> list[tuple[str, str
         ("verdict", judgement.verdict.name.lower()),
         ("reason", facts.why(judgement, language)),
         ("sha256", judgement.digest),
-        ("protocol", f"{PROTOCOL.name} {PROTOCOL.digest}"),
+        ("protocol", f"{judgement.protocol.name} {judgement.protocol.digest}"),
         ("nodes", ", ".join(judgement.nodes)),
         ("seen", ", ".join(judgement.seen)),
     ]

@@ -16,12 +16,12 @@ from swapcan.conform.report.facts import failed, other_worst
 from swapcan.conform.report.sources import Source, sources_of
 from swapcan.conform.report.thinned import Points
 from swapcan.conform.rule import Severity
-from swapcan.log_protocol import OWN
 from typedcan.logs.checks import rows_where
 from typedcan.logs.columns import Column, MessageColumns
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.plan import Mode
+from typedcan.logs.protocol import known
 from typedcan.logs.read import open_log
 from typedcan.logs.read.blocks import rows_of
 from typedcan.wire.message import Message
@@ -137,7 +137,7 @@ class _Opened:
         self.begin = begin
         last = min(found.end, found.start + _LONGEST)
         self.end = min(last + after, judgement.seconds)
-        self.sources = sources_of(found.subject)
+        self.sources = sources_of(found.subject, judgement.protocol)
         self._points = [Points() for _ in self.sources]
 
     def take(self, columns: MessageColumns, time: NDArray[np.float64]) -> None:
@@ -187,10 +187,11 @@ def _values(column: Column | None, rows: NDArray[np.bool_]) -> NDArray[np.float6
 def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
     """Read the log once, and decode only what is shown."""
     sources = [source for each in opened for source in each.sources]
+    protocol = known(judgement.protocol.model)
     decoder = Decoder(
-        OWN.messages,
+        protocol.messages,
         mode=Mode.LABELS,
-        reserved=OWN.reserved,
+        reserved=protocol.reserved,
         wanted=_wanted(sources),
     )
     messages = {source.message.NAME: source.message for source in sources}

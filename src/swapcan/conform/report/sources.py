@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.findings import Subject
-from swapcan.conform.measure.steps import KEYED
+from swapcan.conform.measure.steps import keyed
 from typedcan.wire.message import Field, LabelledField, Message
+from typedcan.wire.protocol import Protocol
 
 _MOST = 6
 """Messages that are shown of a node."""
@@ -47,24 +47,24 @@ class Source:
         return (*((self.signal,) if self.signal else ()), *self.only)
 
 
-def sources_of(subject: Subject) -> tuple[Source, ...]:
+def sources_of(subject: Subject, protocol: Protocol) -> tuple[Source, ...]:
     """What to show for a subject: its signals; its message and the counter; or what a node sends.
 
     Of a message of several frames a cycle only those frames that the subject names. Names that
     are none of the protocol's are passed over.
     """
-    messages = [each for each in PROTOCOL.messages if subject.message in ("", each.NAME)]
+    messages = [each for each in protocol.messages if subject.message in ("", each.NAME)]
     signals = [source for message in messages for source in _signals(message, subject.signal)]
     if signals:
-        beside = [each for other in PROTOCOL.messages for each in _signals(other, subject.detail)]
+        beside = [each for other in protocol.messages for each in _signals(other, subject.detail)]
         return (*signals[:1], *beside[:1])
     if subject.message:
         shown = (source for message in messages for source in _frames(message))
-        return tuple(_narrowed(source, subject.detail) for source in shown)
+        return tuple(_narrowed(source, subject.detail, protocol) for source in shown)
     sent = [
         message
         for message in messages
-        if subject.node == message.SENDER and message.PERIOD and message not in PROTOCOL.conditional
+        if subject.node == message.SENDER and message.PERIOD and message not in protocol.conditional
     ]
     return tuple(Source(message=message, name=message.NAME) for message in sent[:_MOST])
 
@@ -89,11 +89,12 @@ def _signal(message: type[Message], part: Field) -> Source:
     )
 
 
-def _narrowed(source: Source, detail: str) -> Source:
+def _narrowed(source: Source, detail: str, protocol: Protocol) -> Source:
     found = _FRAME_OF_CYCLE.fullmatch(detail)
-    if found is None or source.message not in KEYED:
+    fields = keyed(protocol).get(source.message)
+    if found is None or fields is None:
         return source
-    names = [source.message.FIELDS[each].dbc_name for each in KEYED[source.message]]
+    names = [source.message.FIELDS[each].dbc_name for each in fields]
     numbers = map(int, found.groups())
     only = dict(zip(names, numbers, strict=True))
     return replace(source, name=f"{source.name} {detail}", only=only)

@@ -124,8 +124,8 @@ RANGE = Text("{shortest} to {longest}", "{shortest} 至 {longest}")
 
 LOAD = Text("Bus load", "总线负载率")
 LOAD_HELP = Text(
-    "Shares of the bit rate of 250 kbit/s: without stuff bits, and with the most there can be.",
-    "占 250 kbit/s 位速率的比例：不含填充位，以及含最多填充位。",
+    "Shares of the bit rate of {rate} kbit/s: without stuff bits, and with the most there can be.",
+    "占 {rate} kbit/s 位速率的比例：不含填充位，以及含最多填充位。",
 )
 CHANNEL = Text("Channel", "通道")
 NO_CHANNEL = Text("(unnamed)", "(未命名)")

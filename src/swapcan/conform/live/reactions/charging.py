@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swapcan.conform.chunk import LogEnd
 from swapcan.conform.findings import Occurrence, Subject
 from swapcan.conform.live.reactions.reaction import PACK, Reaction, first
 from swapcan.conform.rule import Rule, Severity
@@ -110,19 +111,21 @@ class _Charging(Reaction):
 class _Begins(_Charging):
     """Waits for the command to charge."""
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge from the charger's first report to its fault."""
         ready = first(self.track(_HARDWARE).of(ChargerFault.OK))
         fault, _ = self.fault()
         if ready:
             limit = self.findings.limit(_BEGIN_LIMIT)
-            self.await_control(ready, fault[0] if fault else end, limit, _NOT_BEGUN, charge=True)
+            self.await_control(
+                ready, fault[0] if fault else end.time, limit, _NOT_BEGUN, charge=True
+            )
 
 
 class _Resumes(_Charging):
     """Waits for the command to charge once a fault of the charger is gone."""
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Judge where charging went on before the fault."""
         fault, gone = self.fault()
         if not fault or self.track(_CONTROL).at(fault[1]) != ChargeControl.START_TO_CHARGE:
@@ -136,7 +139,7 @@ class _Resumes(_Charging):
 class _Ends(_Charging):
     """Waits for the end of charging once the charger is gone."""
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge from the charger's last report on, where charging went on then."""
         reports = self.track(_HARDWARE)
         if reports.empty:
@@ -144,7 +147,7 @@ class _Ends(_Charging):
         last = float(reports.time[-1]), int(reports.order[-1])
         if self.track(_CONTROL).at(last[1]) == ChargeControl.START_TO_CHARGE:
             limit = self.findings.limit(_END_LIMIT)
-            self.await_control(last, end, limit, _NOT_ENDED, charge=False)
+            self.await_control(last, end.time, limit, _NOT_ENDED, charge=False)
 
 
 CHARGE_BEGINS = Rule(

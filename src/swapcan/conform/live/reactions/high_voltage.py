@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swapcan.conform.chunk import LogEnd
 from swapcan.conform.findings import Occurrence, Subject
 from swapcan.conform.live.reactions.reaction import PACK, Reaction, Track, first
 from swapcan.conform.rule import Rule, Severity
@@ -54,7 +55,7 @@ class _Switching(Reaction):
 
     wants = (COMMAND, STATE, LEVEL, _REFUSAL)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge what came of it; nothing where the command or the record ended too early."""
         commands = self.track(COMMAND)
         on = first(commands.of(HvCommand.HV_ON))
@@ -62,7 +63,7 @@ class _Switching(Reaction):
             return
         begin, order = on
         off = first(commands.after(order).of(HvCommand.HV_OFF))
-        given = off[0] if off else end
+        given = off[0] if off else end.time
         until = begin + self.findings.limit(_LIMIT)
         states = self.track(STATE).after(order).between(begin, min(until, given))
         if states.empty:

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from swapcan.conform.chunk import LogEnd
 from swapcan.conform.findings import Occurrence, Subject
 from swapcan.conform.live.reactions.high_voltage import COMMAND, LEVEL, PACK_STATE, STATE, label
 from swapcan.conform.live.reactions.reaction import PACK, Reaction, Track
@@ -102,12 +103,12 @@ class _Troubled(Reaction):
 class _Silent(_Troubled):
     """Notes what happens in the longest time without commands."""
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Find that time."""
         commands = self.every(COMMAND)
         if commands.empty:
             return
-        until = np.append(commands.time[1:], end)
+        until = np.append(commands.time[1:], end.time)
         row = int(np.argmax(until - commands.time))
         start, stop = float(commands.time[row]), float(until[row])
         if stop - start >= self.findings.limit(_SHORTEST):
@@ -119,7 +120,7 @@ class _Stuck(_Troubled):
 
     wants = (*_Troubled.wants, _COUNTER)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Find that time."""
         counter = self.track(_COUNTER)
         changes = np.flatnonzero(np.diff(counter.value)) + 1
@@ -136,7 +137,7 @@ class _Stuck(_Troubled):
 class _WrongChecksum(_Troubled):
     """Sees that high voltage stays open where all commands for it are spoilt."""
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Judge the states from the first spoilt command on."""
         on = self.every(COMMAND).of(HvCommand.HV_ON)
         wrong = on.where(~on.sound)

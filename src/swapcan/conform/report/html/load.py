@@ -13,10 +13,13 @@ def load_section(judgement: Judgement, language: Language) -> Markup:
     """The bars of each channel; nothing where no load was measured."""
     if not judgement.load:
         return Markup("")
+    rates = ", ".join(
+        f"{rate / 1000:g}" for rate in sorted({load.bit_rate for load in judgement.load})
+    )
     return element(
         "section",
         element("h3", words.LOAD.within(language)),
-        element("p", words.LOAD_HELP.within(language), class_="help"),
+        element("p", words.LOAD_HELP.within(language).format(rate=rates), class_="help"),
         lines(*(_channel(load, language) for load in judgement.load)),
         class_="card",
     )

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.judgement import Judgement
 from swapcan.conform.report import facts, figures, words
 from swapcan.conform.report.html.log import KINDS, log_section, sign
@@ -47,7 +46,7 @@ def to_html(
         for place, (judgement, own) in enumerate(zip(judgements, moments, strict=True), 1)
     ]
     body = [
-        _top(language),
+        _top(judgements, language),
         _overview(judgements, language) if len(judgements) > 1 else Markup(""),
         *logs,
         _environment(environment, language),
@@ -81,20 +80,21 @@ def _style() -> Markup:
     return Markup(text)
 
 
-def _top(language: Language) -> Markup:
-    return element(
-        "div",
-        element("h1", words.TITLE.within(language)),
+def _top(judgements: Sequence[Judgement], language: Language) -> Markup:
+    heading = element("h1", words.TITLE.within(language))
+    protocols = dict.fromkeys(judgement.protocol for judgement in judgements)
+    named = [
         element(
             "p",
             words.SPEC.within(language),
             " ",
-            PROTOCOL.name,
+            protocol.name,
             " ",
-            element("code", PROTOCOL.digest),
-        ),
-        class_="top",
-    )
+            element("code", protocol.digest),
+        )
+        for protocol in protocols
+    ]
+    return element("div", heading, *named, class_="top")
 
 
 def _overview(judgements: Sequence[Judgement], language: Language) -> Markup:

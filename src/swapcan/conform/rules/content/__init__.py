@@ -9,10 +9,15 @@ from swapcan.conform.rules.content import (
     invalid_lasting,
     value_range,
 )
+from swapcan.conform.scope import Scope
+from typedcan.wire.protocol import Protocol
 
-RULES: tuple[Rule, ...] = (
-    code_defined.RULE,
-    value_range.RULE,
-    code_reserved.RULE,
-    invalid_lasting.RULE,
-)
+
+def rules(protocol: Protocol, scope: Scope) -> tuple[Rule, ...]:
+    """Those of a protocol, in the order of reports."""
+    return (
+        code_defined.rule(protocol, scope),
+        value_range.rule(protocol),
+        code_reserved.rule(protocol, scope),
+        invalid_lasting.rule(protocol, scope),
+    )

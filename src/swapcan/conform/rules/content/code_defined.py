@@ -2,42 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Said
+from swapcan.conform.findings import Findings, Said
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.content.codes import Codes, judge_codes, senders, wrong_codes
+from swapcan.conform.rules.content.codes import (
+    Codes,
+    judge_codes,
+    senders,
+    whole_fields,
+    without,
+)
+from swapcan.conform.scope import Scope
 from swapcan.conform.text import Text
-from swapcan.messages import (
-    B2V_ST4,
-    B2V_ST5,
-    B2V_ST6,
-    V2B_VIN,
-    B2V_SysCode1,
-    B2V_Temp,
-    B2V_Ucell,
-)
-from typedcan.wire.message import Field, LabelledField
-
-_OPEN = {(B2V_SysCode1, "manufacturer"), (B2V_SysCode1, "sys_code_length")}
-"""Table 8 row 2 names five manufacturers of many; row 3 labels one number of 32."""
-
-_FROM_ONE = (
-    (B2V_Ucell, "frame_no"),
-    (B2V_Ucell, "csc_no"),
-    (B2V_Temp, "frame_no"),
-    (B2V_Temp, "csc_no"),
-    (B2V_ST4, "max_temp_csc_no"),
-    (B2V_ST4, "min_temp_csc_no"),
-    (B2V_ST5, "max_ucell_csc_no"),
-    (B2V_ST6, "min_ucell_csc_no"),
-)
-"""Tables 6, 7, 9 and 10 number frames and CSCs from 1; how far depends on the pack."""
-
-_VIN_FRAMES = range(1, 4)
-"""Table 15 row 1."""
+from typedcan.wire.message import LabelledField
+from typedcan.wire.protocol import FieldRef, Protocol, Transfer
 
 _UNDEFINED = Text(
     "code {code} has no meaning; defined are {defined}",
@@ -46,32 +27,20 @@ _UNDEFINED = Text(
 _NUMBERED_FROM_ONE = Text("number {code}; numbers begin at 1", "编号为 {code},编号应从 1 开始")
 
 
-def _labelled() -> Iterator[Codes]:
-    for message in PROTOCOL.messages:
-        for field in message.FIELDS.values():
-            if not isinstance(field, LabelledField) or (message, field.name) in _OPEN:
-                continue
-            undefined = _without(field, field.labels)
-            if undefined:
-                yield wrong_codes(message, field, undefined)
-
-
-def _without(field: Field, defined: Collection[int]) -> list[int]:
-    return [code for code in range(1 << field.length) if code not in defined]
-
-
-_VIN_FRAME = V2B_VIN.FIELDS["frame_no"]
-_TABLES = (*_labelled(), wrong_codes(V2B_VIN, _VIN_FRAME, _without(_VIN_FRAME, _VIN_FRAMES)))
-_NUMBERS = tuple(wrong_codes(message, message.FIELDS[name], (0,)) for message, name in _FROM_ONE)
-
-
 class CodeDefined(Watcher):
-    """Holds codes against the value tables."""
+    """Holds codes against the value tables, and numbers against where they begin and end."""
+
+    def __init__(
+        self, findings: Findings, tables: Sequence[Codes], numbers: Sequence[Codes]
+    ) -> None:
+        super().__init__(findings)
+        self._tables = tables
+        self._numbers = numbers
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        judge_codes(self.findings, chunk, _TABLES, _describe)
-        judge_codes(self.findings, chunk, _NUMBERS, _describe_number)
+        judge_codes(self.findings, chunk, self._tables, _describe)
+        judge_codes(self.findings, chunk, self._numbers, _describe_number)
 
 
 def _describe(codes: Codes, code: int) -> Said:
@@ -82,19 +51,49 @@ def _describe_number(codes: Codes, code: int) -> Said:  # noqa: ARG001
     return _NUMBERED_FROM_ONE, {"code": code}
 
 
-RULE = Rule(
-    id="code-defined",
-    title=Text("Codes have a meaning", "编码有定义"),
-    purpose=Text(
-        "Nobody knows what a code says that the value table does not have. Tables that number "
-        "CSCs and frames count as examples: a pack may have more of them, but none has number 0. "
-        "Positions, manufacturers and the length of the pack code are left open.",
-        "编码定义中没有的编码,接收方无法理解。"
-        "CSC 编号和帧序号的编码表视为示例:电池包可以有更多编号,但不应为 0。"
-        "位置编号、电池厂家和编码长度不作限制。",
-    ),
-    clause="Tables 1 to 20",
-    severity=Severity.MUST,
-    judges=senders((*_TABLES, *_NUMBERS)),
-    watch=CodeDefined,
-)
+def _labelled(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
+    for message, field in whole_fields(protocol):
+        if isinstance(field, LabelledField) and field.dbc_name not in scope.examples:
+            right = tuple(sorted(field.labels))
+            undefined = without([field.signal.raw_limits], right)
+            if undefined:
+                yield Codes(message, field, undefined, right)
+
+
+def _frame_numbers(transfers: Sequence[Transfer]) -> Iterator[Codes]:
+    """Of the frames of transfers of which it is known how many they take."""
+    for transfer in transfers:
+        if transfer.frame_number and not transfer.group and transfer.count:
+            message, name = transfer.frame_number
+            field = message.FIELDS[name]
+            right = tuple(range(1, -(-transfer.count // len(transfer.items)) + 1))
+            yield Codes(message, field, without([field.signal.raw_limits], right), right)
+
+
+def _from_one(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
+    refs: list[FieldRef] = []
+    for transfer in protocol.transfers:
+        if transfer.frame_number and transfer.group:
+            refs += [transfer.frame_number, transfer.group]
+    for message, field in whole_fields(protocol):
+        if field.dbc_name in scope.from_one:
+            refs.append(FieldRef(message, field.name))
+    for message, name in refs:
+        yield Codes(message, message.FIELDS[name], ((0, 0),))
+
+
+def rule(protocol: Protocol, scope: Scope) -> Rule:
+    """The rule of a protocol."""
+    tables = (*_labelled(protocol, scope), *_frame_numbers(protocol.transfers))
+    numbers = tuple(_from_one(protocol, scope))
+    return Rule(
+        id="code-defined",
+        title=Text("Codes have a meaning", "编码有定义"),
+        purpose=Text(
+            "Nobody knows what a code says that the value table does not have.",
+            "编码定义中没有的编码,接收方无法理解。",
+        ),
+        severity=Severity.MUST,
+        judges=senders((*tables, *numbers)),
+        watch=partial(CodeDefined, tables=tables, numbers=numbers),
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -13,7 +13,12 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.series import Series
+from typedcan.wire.fields import FloatField
 from typedcan.wire.message import Field, Message
+from typedcan.wire.protocol import Protocol
+
+Span = tuple[int, int]
+"""Codes in a row, from the first to the last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,37 +27,43 @@ class Codes:
 
     Parameters
     ----------
-    runs
-        Those in a row, from the first to the last: comparing is faster than looking up.
+    spans
+        Those in a row: comparing is faster than looking up.
+    right
+        Those that are not wrong, where they are few.
     """
 
     message: type[Message]
     field: Field
-    runs: tuple[tuple[int, int], ...]
-
-    @property
-    def right(self) -> list[int]:
-        """The codes that are not wrong."""
-        codes = np.arange(1 << self.field.length)
-        return [int(code) for code in codes[~self.are_wrong(codes)]]
+    spans: tuple[Span, ...]
+    right: tuple[int, ...] = ()
 
     def are_wrong(self, raw: NDArray[Any]) -> NDArray[np.bool_]:
         """Which raw values are."""
         wrong = np.zeros(len(raw), np.bool_)
-        for first, last in self.runs:
+        for first, last in self.spans:
             wrong |= raw == first if first == last else (raw >= first) & (raw <= last)
         return wrong
 
 
-def wrong_codes(message: type[Message], field: Field, wrong: Iterable[int]) -> Codes:
-    """The codes of a field that are wrong, in any order."""
-    runs: list[tuple[int, int]] = []
-    for code in sorted(wrong):
-        if runs and code == runs[-1][1] + 1:
-            runs[-1] = runs[-1][0], code
-        else:
-            runs.append((code, code))
-    return Codes(message, field, tuple(runs))
+def whole_fields(protocol: Protocol) -> Iterator[tuple[type[Message], Field]]:
+    """The fields that are whole numbers on the wire, in every frame of their message."""
+    for message in protocol.messages:
+        for field in message.FIELDS.values():
+            if not (isinstance(field, FloatField) or field.signal.multiplexer):
+                yield message, field
+
+
+def without(spans: Iterable[Span], right: Collection[int]) -> tuple[Span, ...]:
+    """What is left of spans without some codes."""
+    left: list[Span] = []
+    for first, last in spans:
+        begin = first
+        for code in sorted(code for code in right if first <= code <= last):
+            left.append((begin, code - 1))
+            begin = code + 1
+        left.append((begin, last))
+    return tuple((first, last) for first, last in left if first <= last)
 
 
 def judge_codes(

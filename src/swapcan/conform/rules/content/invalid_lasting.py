@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.rules.content.codes import whole_fields
+from swapcan.conform.scope import Scope
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
-from swapcan.messages import B2V_ST0, V2B_CMD, B2V_Temp, B2V_Ucell
 from typedcan.logs.checks import PERIODS
 from typedcan.wire.message import Field, FilledField, Message, SignalState
+from typedcan.wire.protocol import Protocol
 
 SECONDS = Tolerance(
     name="invalid-lasting.seconds",
@@ -28,10 +31,6 @@ SECONDS = Tolerance(
     ),
 )
 
-_COMMANDS = ("hv_on_off", "hv_acc_on_off", "heat_on_off")
-_LEFT_OUT = (B2V_ST0, B2V_Ucell, B2V_Temp)
-"""Relay states, which the other side may measure, and items that pad a CSC's last frame."""
-
 _LASTING = Text(
     "{state} for {seconds:.1f} s, allowed are {limit:g} s",
     "“{state}”持续 {seconds:.1f} s,允许 {limit:g} s",
@@ -42,18 +41,11 @@ _STATES = {
 }
 
 
-def _is_judged(message: type[Message], field: Field) -> bool:
-    if message.PERIOD is None or message in _LEFT_OUT or isinstance(field, FilledField):
-        return False
-    return bool(field.states) and (message is not V2B_CMD or field.name in _COMMANDS)
-
-
-_FIELDS = tuple(
-    (message, field)
-    for message in PROTOCOL.messages
-    for field in message.FIELDS.values()
-    if _is_judged(message, field)
-)
+def _judged(protocol: Protocol, scope: Scope) -> Iterator[tuple[type[Message], Field]]:
+    for message, field in whole_fields(protocol):
+        may_lack = isinstance(field, FilledField) or field.dbc_name in scope.without_value
+        if message.PERIOD and field.states and not may_lack:
+            yield message, field
 
 
 @dataclass(slots=True)
@@ -70,14 +62,15 @@ class _Run:
 class InvalidLasting(Watcher):
     """Follows signals while they have no value; a silence of their message ends that."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, fields: Sequence[tuple[type[Message], Field]]) -> None:
         super().__init__(findings)
+        self._fields = fields
         self._limit = findings.limit(SECONDS)
         self._open: dict[tuple[type[Message], str], _Run] = {}
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        for message, field in _FIELDS:
+        for message, field in self._fields:
             series = chunk.sound(message)
             if not series.fresh:
                 continue
@@ -91,9 +84,9 @@ class InvalidLasting(Watcher):
             else:
                 self._close(message, field)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Judge what had no value until the end."""
-        for message, field in _FIELDS:
+        for message, field in self._fields:
             self._close(message, field)
 
     def _follow(self, series: Series, field: Field, none: NDArray[np.bool_]) -> None:
@@ -143,19 +136,18 @@ class InvalidLasting(Watcher):
         self.findings.add(found)
 
 
-RULE = Rule(
-    id="invalid-lasting",
-    title=Text("Signals have a value", "信号有有效值"),
-    purpose=Text(
-        "Who relies on a signal must do without it as long as it is invalid. States of relays and "
-        "contactors are left out, as the other side may measure them, and single cells and "
-        "probes, as the last frame of a CSC may have no more of them.",
-        "信号无效期间,依赖该信号的节点无法工作。继电器和接触器状态可能由对方检测,单体电压和探针温度"
-        "可能是 CSC 末帧的填充,均不判定。",
-    ),
-    clause="Tables 1, 5 to 7, 11, 13 and 14",
-    severity=Severity.SHOULD,
-    judges=tuple(dict.fromkeys(message.SENDER for message, _ in _FIELDS)),
-    tolerances=(SECONDS,),
-    watch=InvalidLasting,
-)
+def rule(protocol: Protocol, scope: Scope) -> Rule:
+    """The rule of a protocol."""
+    fields = tuple(_judged(protocol, scope))
+    return Rule(
+        id="invalid-lasting",
+        title=Text("Signals have a value", "信号有有效值"),
+        purpose=Text(
+            "Who relies on a signal must do without it as long as it is invalid.",
+            "信号无效期间,依赖该信号的节点无法工作。",
+        ),
+        severity=Severity.SHOULD,
+        judges=tuple(dict.fromkeys(message.SENDER for message, _ in fields)),
+        tolerances=(SECONDS,),
+        watch=partial(InvalidLasting, fields=fields),
+    )

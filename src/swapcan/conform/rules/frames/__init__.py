@@ -14,15 +14,19 @@ from swapcan.conform.rules.frames import (
     source_address,
     unassigned_bits,
 )
+from typedcan.wire.protocol import Protocol
 
-RULES: tuple[Rule, ...] = (
-    frame_kind.RULE,
-    frame_length.RULE,
-    identifier_priority.RULE,
-    source_address.RULE,
-    reserved_bits.RULE,
-    unassigned_bits.RULE,
-    foreign_frames.RULE,
-    error_frames.RULE,
-    message_one_channel.RULE,
-)
+
+def rules(protocol: Protocol) -> tuple[Rule, ...]:
+    """Those of a protocol, in the order of reports."""
+    return (
+        frame_kind.rule(protocol),
+        frame_length.rule(protocol),
+        identifier_priority.rule(protocol),
+        source_address.rule(protocol),
+        reserved_bits.rule(protocol),
+        unassigned_bits.rule(protocol),
+        foreign_frames.rule(protocol),
+        error_frames.rule(protocol),
+        message_one_channel.rule(protocol),
+    )

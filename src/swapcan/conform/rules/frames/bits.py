@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -11,9 +11,17 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.text import Text
+from typedcan.model.layout import bits
+from typedcan.model.protocol import ReservedBits, Signal
 from typedcan.wire.message import Message
 
-ALL_BITS = (1 << 64) - 1
+_WORD = 8
+"""Bytes that are looked at together."""
+
+
+def mask_of(places: Iterable[Signal | ReservedBits]) -> int:
+    """The bits that signals or reserved fields take, with bit 0 the lowest of byte 0."""
+    return sum(1 << bit for bit in {bit for place in places for bit in bits(place)})
 
 
 def judge_zeros(
@@ -24,15 +32,28 @@ def judge_zeros(
     Parameters
     ----------
     masks
-        The bits that are to be 0, with bit 0 the lowest of byte 0.
+        The bits that are to be 0, as `mask_of` has them.
     text
         What is said of a frame with others; gets the ``bits`` that are 1.
     """
     for message, mask in masks.items():
         series = chunk.sound(message)
-        words = np.ascontiguousarray(series.payload).view("<u8")[:, 0] & np.uint64(mask)
-        subject = Subject(message.SENDER, message.NAME)
-        findings.rows(subject, series, words != 0, partial(_describe, text, words))
+        if series.fresh:
+            words = _words(series.payload) & _words(_bytes(mask, message.LENGTH))
+            subject = Subject(message.SENDER, message.NAME)
+            wrong = words[:, 0] != 0 if words.shape[1] == 1 else (words != 0).any(axis=1)
+            findings.rows(subject, series, wrong, partial(_describe, text, words))
+
+
+def _words(payload: NDArray[np.uint8]) -> NDArray[np.uint64]:
+    """Payloads of any length as words, filled up with 0."""
+    more = -payload.shape[1] % _WORD
+    padded = np.pad(payload, ((0, 0), (0, more))) if more else np.ascontiguousarray(payload)
+    return padded.view("<u8")
+
+
+def _bytes(mask: int, length: int) -> NDArray[np.uint8]:
+    return np.frombuffer(mask.to_bytes(length, "little"), np.uint8)[None, :]
 
 
 def ranges(numbers: Sequence[int]) -> str:
@@ -47,5 +68,5 @@ def ranges(numbers: Sequence[int]) -> str:
 
 
 def _describe(text: Text, words: NDArray[np.uint64], row: int) -> Said:
-    word = int(words[row])
-    return text, {"bits": ranges([bit for bit in range(64) if word >> bit & 1])}
+    number = int.from_bytes(words[row].tobytes(), "little")
+    return text, {"bits": ranges([bit for bit in range(number.bit_length()) if number >> bit & 1])}

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.bystander import bystander
-from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.text import Text
+from typedcan.wire.protocol import Protocol
 
 _ERRORS = Text(
     "error frames: {count}, from {first:.3f} s to {last:.3f} s",
@@ -21,7 +19,7 @@ class ErrorFrames(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._node = bystander(findings)
+        self._node = findings.first_node
         self._count = 0
         self._order = 0
         self._first = self._last = 0.0
@@ -29,7 +27,7 @@ class ErrorFrames(Watcher):
     def take(self, chunk: Chunk) -> None:
         """Count those of the next frames."""
         self.findings.examine(self._node, len(chunk.block))
-        rows = left_over(chunk).errors
+        rows = chunk.left_over.errors
         if not len(rows):
             return
         times = chunk.block.timestamp[rows] - chunk.begin
@@ -39,7 +37,7 @@ class ErrorFrames(Watcher):
         self._last = float(times[-1])
         self._count += len(rows)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say how many there were."""
         if not self._count:
             return
@@ -56,15 +54,17 @@ class ErrorFrames(Watcher):
         self.findings.add(found)
 
 
-RULE = Rule(
-    id="error-frames",
-    title=Text("Error frames", "错误帧"),
-    purpose=Text(
-        "They tell of bad wiring, a wrong bit rate, or two nodes that send the same identifier.",
-        "错误帧说明线路不良、波特率不一致,或有两个节点发送同一标识符。",
-    ),
-    clause="4.1, 4.2.2",
-    severity=Severity.INFO,
-    judges=PROTOCOL.nodes,
-    watch=ErrorFrames,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="error-frames",
+        title=Text("Error frames", "错误帧"),
+        purpose=Text(
+            "They tell of bad wiring, a wrong bit rate, or two nodes that send the same "
+            "identifier.",
+            "错误帧说明线路不良、波特率不一致,或有两个节点发送同一标识符。",
+        ),
+        severity=Severity.INFO,
+        judges=protocol.nodes,
+        watch=ErrorFrames,
+    )

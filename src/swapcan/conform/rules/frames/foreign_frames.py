@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from functools import partial
+
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.measure.left_over import EXTENDED
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.bystander import bystander
-from swapcan.conform.rules.frames.identifiers import is_foreign, meant, written
-from swapcan.conform.rules.frames.left_over import EXTENDED, left_over
+from swapcan.conform.rules.frames.identifiers import Identifiers, written
 from swapcan.conform.rules.frames.sightings import Sightings
 from swapcan.conform.text import Text
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _FOREIGN = Text("frames that the protocol does not have: {frames}", "非本协议报文,共 {frames} 帧")
 _AND_MORE = Text(
@@ -23,25 +24,28 @@ _AND_MORE = Text(
 class ForeignFrames(Watcher):
     """Collects the identifiers that no rule holds to be meant as a message's."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._node = bystander(findings)
+        self._node = findings.first_node
+        self._messages = protocol.messages
+        self._identifiers = Identifiers(protocol)
         self._seen: set[type[Message]] = set()
         self._sightings = Sightings()
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         self.findings.examine(self._node, len(chunk.block))
-        self._seen.update(each for each in PROTOCOL.messages if chunk.frames(each).fresh)
-        left = left_over(chunk)
-        self._sightings.take(chunk, left, is_foreign(left.keys))
+        self._seen.update(each for each in self._messages if chunk.frames(each).fresh)
+        left = chunk.left_over
+        self._sightings.take(chunk, left, self._identifiers.is_foreign(left.keys))
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say which identifiers there were."""
         foreign = [
             each
             for each in self._sightings.all()
-            if not each.key & EXTENDED or meant(each.key & ~EXTENDED, self._seen) is None
+            if not each.key & EXTENDED
+            or self._identifiers.meant(each.key & ~EXTENDED, self._seen) is None
         ]
         for place, each in enumerate(foreign, 1):
             others = self._sightings.others if place == len(foreign) else 0
@@ -58,16 +62,17 @@ class ForeignFrames(Watcher):
             self.findings.add(found)
 
 
-RULE = Rule(
-    id="foreign-frames",
-    title=Text("Other frames on the bus", "总线上的其他报文"),
-    purpose=Text(
-        "They need not be wrong, but take a share of the bus, and may be messages with a mistaken "
-        "identifier.",
-        "这些报文不一定有错,但会占用总线带宽,也可能是标识符有误的协议报文。",
-    ),
-    clause="A.1",
-    severity=Severity.INFO,
-    judges=PROTOCOL.nodes,
-    watch=ForeignFrames,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="foreign-frames",
+        title=Text("Other frames on the bus", "总线上的其他报文"),
+        purpose=Text(
+            "They need not be wrong, but take a share of the bus, and may be messages with a "
+            "mistaken identifier.",
+            "这些报文不一定有错,但会占用总线带宽,也可能是标识符有误的协议报文。",
+        ),
+        severity=Severity.INFO,
+        judges=protocol.nodes,
+        watch=partial(ForeignFrames, protocol=protocol),
+    )

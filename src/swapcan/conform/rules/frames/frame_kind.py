@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Said
+from swapcan.conform.findings import Findings, Said
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.odd import judge_odd
 from swapcan.conform.text import Text
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _ODD = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
 
@@ -27,29 +28,35 @@ _FD = Text(
 class FrameKind(Watcher):
     """Looks at what is left over with an identifier of the protocol."""
 
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
+        super().__init__(findings)
+        self._messages = protocol.messages
+
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         flags = chunk.block.flags
         odd = {
             message: rows[(flags[rows] & _ODD) != 0]
-            for message, rows in left_over(chunk).by_message()
+            for message, rows in chunk.left_over.of_messages()
         }
-        judge_odd(self.findings, chunk, odd, _describe)
+        judge_odd(self.findings, chunk, self._messages, odd, _describe)
 
 
 def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:  # noqa: ARG001
     return (_REMOTE if block.flags[row] & FrameFlag.REMOTE else _FD), {}
 
 
-RULE = Rule(
-    id="frame-kind",
-    title=Text("Frames are classical data frames", "帧为经典 CAN 数据帧"),
-    purpose=Text(
-        "A remote frame carries no data, and a node without CAN FD destroys FD frames on the bus.",
-        "远程帧不携带数据;不支持 CAN FD 的节点会破坏总线上的 FD 帧。",
-    ),
-    clause="4.2.1, 4.2.2",
-    severity=Severity.MUST,
-    judges=PROTOCOL.nodes,
-    watch=FrameKind,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="frame-kind",
+        title=Text("Frames are classical data frames", "帧为经典 CAN 数据帧"),
+        purpose=Text(
+            "A remote frame carries no data, and a node without CAN FD destroys FD frames on the "
+            "bus.",
+            "远程帧不携带数据;不支持 CAN FD 的节点会破坏总线上的 FD 帧。",
+        ),
+        severity=Severity.MUST,
+        judges=protocol.nodes,
+        watch=partial(FrameKind, protocol=protocol),
+    )

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.left_over import left_over
 from swapcan.conform.rules.frames.sightings import Sighting
 from swapcan.conform.text import Text
 from typedcan.logs.frames import FrameFlag
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _OTHER_KINDS = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
 
@@ -26,15 +27,16 @@ _TWICE = Text(
 class MessageOneChannel(Watcher):
     """Counts the frames that are sound but came on another channel than the first."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
+        self._messages = protocol.messages
         self._homes: dict[type[Message], str] = {}
         self._others: dict[tuple[type[Message], str], Sighting] = {}
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         block = chunk.block
-        for message in PROTOCOL.messages:
+        for message in self._messages:
             own = chunk.frames(message)
             if not own.fresh:
                 continue
@@ -42,13 +44,13 @@ class MessageOneChannel(Watcher):
             if message not in self._homes:
                 row = own.order[own.first] - chunk.first_order
                 self._homes[message] = str(block.channels[block.channel[row]])
-        for message, rows in left_over(chunk).by_message():
+        for message, rows in chunk.left_over.of_messages():
             sound = (block.flags[rows] & _OTHER_KINDS) == 0
             sound &= block.length[rows] == message.LENGTH
             if sound.any():
                 self._count(chunk, message, rows[sound])
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say which channels there were."""
         for (message, channel), each in self._others.items():
             home = self._homes[message]
@@ -77,16 +79,17 @@ class MessageOneChannel(Watcher):
             sighting.frames += len(own)
 
 
-RULE = Rule(
-    id="message-one-channel",
-    title=Text("Each message comes on one channel", "每个报文只在一个通道上"),
-    purpose=Text(
-        "A message that is on several channels of a log, as behind a gateway, is judged on the "
-        "first only.",
-        "报文出现在日志的多个通道上时(例如经网关转发),只判定最先出现的通道。",
-    ),
-    clause="4.2.2",
-    severity=Severity.INFO,
-    judges=PROTOCOL.nodes,
-    watch=MessageOneChannel,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="message-one-channel",
+        title=Text("Each message comes on one channel", "每个报文只在一个通道上"),
+        purpose=Text(
+            "A message that is on several channels of a log, as behind a gateway, is judged on the "
+            "first only.",
+            "报文出现在日志的多个通道上时(例如经网关转发),只判定最先出现的通道。",
+        ),
+        severity=Severity.INFO,
+        judges=protocol.nodes,
+        watch=partial(MessageOneChannel, protocol=protocol),
+    )

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.series import Series
@@ -25,6 +24,7 @@ _NONE = np.empty(0, np.int64)
 def judge_odd(
     findings: Findings,
     chunk: Chunk,
+    messages: Sequence[type[Message]],
     odd: Mapping[type[Message], NDArray[np.int64]],
     describe: Describe,
 ) -> None:
@@ -32,11 +32,13 @@ def judge_odd(
 
     Parameters
     ----------
+    messages
+        All of the protocol.
     odd
         Rows of the chunk's block that are wrong, by the message that they are meant as; all frames
         of the messages themselves are right.
     """
-    for message in PROTOCOL.messages:
+    for message in messages:
         own = chunk.frames(message)
         rows = odd.get(message, _NONE)
         if len(rows):
@@ -58,7 +60,12 @@ def _judge(
     own, block = chunk.frames(message), chunk.block
     rows = np.sort(np.concatenate([own.order[own.first :] - chunk.first_order, odd]))
     columns = MessageColumns(
-        message.NAME, message.FRAME_ID, is_extended=True, block=block, rows=rows, columns={}
+        message.NAME,
+        message.FRAME_ID,
+        is_extended=message.EXTENDED,
+        block=block,
+        rows=rows,
+        columns={},
     )
     series = Series(message, columns, None, chunk.begin, chunk.first_order)
 

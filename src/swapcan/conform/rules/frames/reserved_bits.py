@@ -2,49 +2,51 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
+from functools import partial
+
 from swapcan.conform.chunk import Chunk
+from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.bits import judge_zeros
+from swapcan.conform.rules.frames.bits import judge_zeros, mask_of
 from swapcan.conform.text import Text
-from typedcan.model.layout import bits
 from typedcan.wire.message import Message
-
-RESERVED: dict[type[Message], tuple[tuple[int, int], ...]] = {
-    message: tuple((min(bits(each)), max(bits(each))) for each in message.MODEL.reserved)
-    for message in PROTOCOL.messages
-    if message.MODEL.reserved
-}
-"""First and last bit of each field that A.1 prints as Reserved, bit 0 the lowest of byte 0."""
-
-MASKS = {
-    message: sum((1 << last + 1) - (1 << first) for first, last in fields)
-    for message, fields in RESERVED.items()
-}
-"""The same as numbers with those bits set."""
+from typedcan.wire.protocol import Protocol
 
 _SET = Text("reserved bits are 1: {bits}", "预留位为 1:第 {bits} 位")
+
+
+def reserved_masks(protocol: Protocol) -> dict[type[Message], int]:
+    """The reserved bits of the messages that have such and send them as 0."""
+    found = {
+        message: mask_of(field for field in message.MODEL.reserved if not field.value)
+        for message in protocol.messages
+    }
+    return {message: mask for message, mask in found.items() if mask}
 
 
 class ReservedBits(Watcher):
     """Looks at the reserved bits of messages that have such."""
 
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
+        super().__init__(findings)
+        self._masks = reserved_masks(protocol)
+
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        judge_zeros(self.findings, chunk, MASKS, _SET)
+        judge_zeros(self.findings, chunk, self._masks, _SET)
 
 
-RULE = Rule(
-    id="reserved-bits",
-    title=Text("Reserved bits are 0", "预留位填充 0"),
-    purpose=Text(
-        "A later edition may give them a meaning, which is then taken from what is sent today. "
-        "Filled with 0 is printed in tables 3 and 14, and holds for the other reserved fields.",
-        "后续版本可能定义预留位的含义,届时会按现在发送的内容解释。表 3 和表 14 规定预留填充 0,"
-        "其他预留字段同样适用。",
-    ),
-    clause="A.1; Table 3 rows 3 and 4 (5.1.3), Table 14 row 21 (5.2.1)",
-    severity=Severity.MUST,
-    judges=tuple(node for node in PROTOCOL.nodes if node in {each.SENDER for each in RESERVED}),
-    watch=ReservedBits,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    senders = {message.SENDER for message in reserved_masks(protocol)}
+    return Rule(
+        id="reserved-bits",
+        title=Text("Reserved bits are 0", "预留位填充 0"),
+        purpose=Text(
+            "A later edition may give them a meaning, which is then taken from what is sent today.",
+            "后续版本可能定义预留位的含义,届时会按现在发送的内容解释。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(node for node in protocol.nodes if node in senders),
+        watch=partial(ReservedBits, protocol=protocol),
+    )

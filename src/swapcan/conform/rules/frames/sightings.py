@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.rules.frames.left_over import LeftOver
+from swapcan.conform.measure.left_over import LeftOver
 
 LISTED = 1000
 """Identifiers that are followed one by one: a log of random ones must not fill the memory."""

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from collections.abc import Iterable
+from functools import partial
+
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
+from swapcan.conform.measure.left_over import EXTENDED
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.identifiers import has_other_address, meant, with_head, written
-from swapcan.conform.rules.frames.left_over import EXTENDED, left_over
+from swapcan.conform.rules.frames.identifiers import Identifiers, written
 from swapcan.conform.rules.frames.sightings import Sighting, Sightings
 from swapcan.conform.text import Text
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _ADDRESS = Text(
     "source address 0x{address:02X}; with this priority, PF and PS the standard has {printed}",
@@ -24,33 +27,38 @@ class SourceAddress(Watcher):
     Whose they are is known at the end, when it is known which messages came.
     """
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
+        self._messages = protocol.messages
+        self._identifiers = Identifiers(protocol)
         self._seen: set[type[Message]] = set()
         self._sightings = Sightings()
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        for message in PROTOCOL.messages:
+        for message in self._messages:
             frames = chunk.frames(message).fresh
             if frames:
                 self._seen.add(message)
                 self.findings.examine(message.SENDER, frames)
-        left = left_over(chunk)
-        self._sightings.take(chunk, left, has_other_address(left.keys))
+        left = chunk.left_over
+        self._sightings.take(chunk, left, self._identifiers.has_other_address(left.keys))
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say which identifiers were meant to be messages."""
         for sighting in self._sightings.all():
-            message = meant(sighting.key & ~EXTENDED, self._seen)
+            frame_id = sighting.key & ~EXTENDED
+            message = self._identifiers.meant(frame_id, self._seen)
             if message is not None:
                 self.findings.examine(message.SENDER, sighting.frames)
-                self.findings.add(_occurrence(message, sighting))
+                same = self._identifiers.with_head(frame_id)
+                self.findings.add(_occurrence(message, sighting, same))
 
 
-def _occurrence(message: type[Message], sighting: Sighting) -> Occurrence:
-    frame_id = sighting.key & ~EXTENDED
-    printed = ", ".join(f"0x{each.FRAME_ID:08X} {each.NAME}" for each in with_head(frame_id))
+def _occurrence(
+    message: type[Message], sighting: Sighting, same: Iterable[type[Message]]
+) -> Occurrence:
+    printed = ", ".join(f"0x{each.FRAME_ID:08X} {each.NAME}" for each in same)
     return Occurrence(
         subject=Subject(message.SENDER, message.NAME, detail=written(sighting.key)),
         start=sighting.start,
@@ -59,25 +67,24 @@ def _occurrence(message: type[Message], sighting: Sighting) -> Occurrence:
         frames=sighting.frames,
         measure=sighting.frames,
         text=_ADDRESS,
-        values={"address": frame_id & 0xFF, "printed": printed},
+        values={"address": sighting.key & 0xFF, "printed": printed},
     )
 
 
-RULE = Rule(
-    id="source-address",
-    title=Text("Messages come from their source address", "报文的源地址与标准一致"),
-    purpose=Text(
-        "Receivers compare whole identifiers: from another source address the message is not seen. "
-        "V2B_RQData comes from 0xEF, BMS_TMS_0 from 0xF4, unlike the rest of their senders' "
-        "messages. A frame counts as a message's where its sender has that address in others, or "
-        "where the log lacks the message; else it is taken for another node's.",
-        "接收方按完整标识符过滤:源地址不同则收不到该报文。"
-        "V2B_RQData 的源地址为 0xEF,BMS_TMS_0 为 0xF4,"
-        "与其发送节点的其他报文不同。该源地址属于发送节点,或日志中缺少该报文时,判为该报文的错误;"
-        "否则视为其他节点的报文。",
-    ),
-    clause="A.1",
-    severity=Severity.MUST,
-    judges=PROTOCOL.nodes,
-    watch=SourceAddress,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="source-address",
+        title=Text("Messages come from their source address", "报文的源地址与标准一致"),
+        purpose=Text(
+            "Receivers compare whole identifiers: from another source address the message is not "
+            "seen. A frame counts as a message's where its sender has that address in others, or "
+            "where the log lacks the message; else it is taken for another node's.",
+            "接收方按完整标识符过滤:源地址不同则收不到该报文。"
+            "该源地址属于发送节点,或日志中缺少该报文时,判为该报文的错误;"
+            "否则视为其他节点的报文。",
+        ),
+        severity=Severity.MUST,
+        judges=protocol.nodes,
+        watch=partial(SourceAddress, protocol=protocol),
+    )

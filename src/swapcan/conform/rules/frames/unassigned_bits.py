@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import partial
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.frames.bits import ALL_BITS, judge_zeros
-from swapcan.conform.rules.frames.reserved_bits import MASKS
+from swapcan.conform.rules.frames.bits import judge_zeros, mask_of
 from swapcan.conform.text import Text
-from typedcan.model.layout import bits
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _SET = Text("bits that no signal has are 1: {bits}", "未分配给信号的位为 1:第 {bits} 位")
 
@@ -20,37 +18,32 @@ _SET = Text("bits that no signal has are 1: {bits}", "未分配给信号的位�
 class UnassignedBits(Watcher):
     """Looks at what is between signals and behind them."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._masks = _unassigned()
+        free = {message: _unassigned(message) for message in protocol.messages}
+        self._masks = {message: mask for message, mask in free.items() if mask}
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         judge_zeros(self.findings, chunk, self._masks, _SET)
 
 
-@cache
-def _unassigned() -> dict[type[Message], int]:
-    masks: dict[type[Message], int] = {}
-    for message in PROTOCOL.messages:
-        free = ALL_BITS & ~MASKS.get(message, 0)
-        for signal in message.MODEL.signals:
-            free &= ~sum(1 << bit for bit in bits(signal))
-        if free:
-            masks[message] = free
-    return masks
+def _unassigned(message: type[Message]) -> int:
+    every = (1 << 8 * message.LENGTH) - 1
+    return every & ~mask_of((*message.MODEL.signals, *message.MODEL.reserved))
 
 
-RULE = Rule(
-    id="unassigned-bits",
-    title=Text("Bits without a signal are 0", "未分配的位填充 0"),
-    purpose=Text(
-        "The standard says nothing of them; 0 is what it fills with elsewhere, and what a later "
-        "edition will count on.",
-        "标准未规定这些位;其他处均填充 0,后续版本也会以此为前提。",
-    ),
-    clause="A.1",
-    severity=Severity.INFO,
-    judges=PROTOCOL.nodes,
-    watch=UnassignedBits,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="unassigned-bits",
+        title=Text("Bits without a signal are 0", "未分配的位填充 0"),
+        purpose=Text(
+            "Nothing is said of them; 0 is what is filled with elsewhere, and what a later edition "
+            "will count on.",
+            "协议未规定这些位;其他处均填充 0,后续版本也会以此为前提。",
+        ),
+        severity=Severity.INFO,
+        judges=protocol.nodes,
+        watch=partial(UnassignedBits, protocol=protocol),
+    )

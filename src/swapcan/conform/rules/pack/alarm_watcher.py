@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import ClassVar
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Subject
 from swapcan.conform.rule import Watcher
 from swapcan.conform.rules.pack.alarms import Alarms, AlarmStream
@@ -35,7 +35,7 @@ class AlarmWatcher(Watcher):
         """Judge the frames around which all is known by now."""
         self.judge(self._stream.take(chunk))
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge the rest."""
         del end
         if left := self._stream.finish():

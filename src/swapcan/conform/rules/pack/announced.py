@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Watcher
 from swapcan.conform.rules.pack.silences import Silences
@@ -98,7 +98,7 @@ class Announced(Watcher):
             rows = self._rows(status)
             self._unmeasured |= any(status.new_raw(name)[rows].any() for name in _UNMEASURED)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Compare, where the message was seen long enough."""
         del end
         self._conclude()

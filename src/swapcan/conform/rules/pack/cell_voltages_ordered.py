@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.runs import ROUNDING, Runs
@@ -70,7 +70,7 @@ class CellVoltagesOrdered(Watcher):
         others = rows_of(lowest, lowest.value("min_ucell"))
         self._judge_lowest(self._surroundings.take(frames, others, chunk.end))
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge the rest, and report what lasts to the end."""
         del end
         if left := self._surroundings.finish():

@@ -107,7 +107,7 @@ class CycleStream:
     def take(self, chunk: Chunk) -> Iterator[Cycles]:
         """Those that have all neighbours with this chunk."""
         for table in chunk.cycles:
-            if table.readings is self._readings and len(table):
+            if table.readings.message == self._readings.message and len(table):
                 cycles = self._joined(table, chunk.begin)
                 self._kept = Cycles(
                     cycles.positions,

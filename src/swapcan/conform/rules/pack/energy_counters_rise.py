@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.integral import Numbers
@@ -72,7 +72,7 @@ class EnergyCountersRise(Watcher):
                 wrong &= now > self._anew + ROUNDING
             runs.take(time, order, wrong, partial(self._describe, before, now), fall)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Report what lasts to the end."""
         del end
         for runs in self._runs.values():

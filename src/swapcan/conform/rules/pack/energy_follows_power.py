@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.integral import LONGEST, Integral, Numbers
@@ -97,7 +97,7 @@ class EnergyFollowsPower(Watcher):
             )
             self._take_point(point)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge the last part."""
         del end
         self._judge()

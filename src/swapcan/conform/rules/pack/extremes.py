@@ -8,7 +8,7 @@ from functools import cache, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Watcher
 from swapcan.conform.rules.pack.cycles import SIDE, Cycles, CycleStream, Numbers, around
@@ -125,7 +125,7 @@ class _Extremes(Watcher):
                 if len(history.time):
                     self.judge(told, cycles, history, runs)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Report what lasts to the end."""
         del end
         for _, _, runs in self._told:

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
@@ -61,7 +61,7 @@ class ReadingMissing(Watcher):
                 elif place in going_on:
                     self._close(place)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Judge what had no value until the end."""
         for place in list(self._open):
             self._close(place)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.runs import ROUNDING
@@ -67,7 +67,7 @@ class SocContinuous(Watcher):
         self._find(chunk)
         self._report(chunk.end)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Report the last ones."""
         del end
         self._report(np.inf)

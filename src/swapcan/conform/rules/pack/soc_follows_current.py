@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.integral import Integral
@@ -111,7 +111,7 @@ class SocFollowsCurrent(Watcher):
             self._points.append(point)
         self._rows += series.fresh
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Compare, in windows as short as can be judged, and as a whole."""
         del end
         if not self._capacities:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.runs import ROUNDING, Runs
@@ -56,7 +56,7 @@ class TemperaturesOrdered(Watcher):
             excess[rows],
         )
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Report what lasts to the end."""
         del end
         self._runs.finish()

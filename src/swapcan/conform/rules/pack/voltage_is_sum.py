@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.pack.cycles import Cycles, CycleStream, Numbers, around
@@ -81,7 +81,7 @@ class VoltageIsSum(Watcher):
             if len(self._history.time):
                 self._take(self._rows(cycles))
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge a short log, and report what lasts to the end."""
         del end
         if self._first:

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Said, Subject
+from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from typedcan.logs.checks import has_checksum
+from typedcan.model.layout import whole_byte
+from typedcan.wire.message import Message
 from typedcan.wire.protect import STANDARD_ALGORITHMS, expected_checksum
-
-_PROTECTED = tuple(message for message in PROTOCOL.messages if has_checksum(message.MODEL))
+from typedcan.wire.protocol import Protocol
 
 _WRONG = Text(
     "checksum 0x{given:02X}, the bytes make 0x{right:02X}",
@@ -24,11 +25,15 @@ _WRONG = Text(
 
 
 class Checksum(Watcher):
-    """Compares each checksum with the XOR of the other bytes."""
+    """Compares each checksum with the one that the bytes make."""
+
+    def __init__(self, findings: Findings, messages: Sequence[type[Message]]) -> None:
+        super().__init__(findings)
+        self._messages = messages
 
     def take(self, chunk: Chunk) -> None:
         """Judge all frames of messages that have a checksum."""
-        for message in _PROTECTED:
+        for message in self._messages:
             series, sound = chunk.frames(message), chunk.sound(message)
             wrong = np.zeros(len(series), np.bool_)
             if series.fresh != sound.fresh:
@@ -40,18 +45,22 @@ class Checksum(Watcher):
 def _describe(series: Series, row: int) -> Said:
     data = bytes(series.payload[row])
     right = expected_checksum(series.message, data, STANDARD_ALGORITHMS)
-    return _WRONG, {"given": data[0], "right": right}
+    checksum = series.message.MODEL.checksum
+    place = whole_byte(series.message.MODEL.signal(checksum.signal)) if checksum else None
+    return _WRONG, {"given": data[place or 0], "right": right}
 
 
-RULE = Rule(
-    id="checksum",
-    title=Text("Checksums are right", "校验和正确"),
-    purpose=Text(
-        "A receiver drops a frame whose checksum is wrong.",
-        "接收方会丢弃校验和错误的报文。",
-    ),
-    clause="Tables 1, 8, 14 and 16",
-    severity=Severity.MUST,
-    judges=tuple(dict.fromkeys(message.SENDER for message in _PROTECTED)),
-    watch=Checksum,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    protected = tuple(each for each in protocol.messages if has_checksum(each.MODEL))
+    return Rule(
+        id="checksum",
+        title=Text("Checksums are right", "校验和正确"),
+        purpose=Text(
+            "A receiver drops a frame whose checksum is wrong.",
+            "接收方会丢弃校验和错误的报文。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(message.SENDER for message in protected)),
+        watch=partial(Checksum, messages=protected),
+    )

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
@@ -16,10 +16,7 @@ from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from typedcan.logs.checks import PERIODS
 from typedcan.wire.message import Counter, Message
-
-_COUNTING = tuple(
-    (message, counter) for message in PROTOCOL.messages if (counter := message.COUNTER)
-)
+from typedcan.wire.protocol import Protocol
 
 _REPEATED = Text("repeated: the counter stays at {value}", "重复:计数值停在 {value}")
 _SKIPPED = Text(
@@ -53,13 +50,16 @@ class CounterSequence(Watcher):
     the counter must not have, it may begin anywhere.
     """
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(
+        self, findings: Findings, counters: Sequence[tuple[type[Message], Counter]]
+    ) -> None:
         super().__init__(findings)
-        self._places = {message: _Place() for message, _ in _COUNTING}
+        self._counters = counters
+        self._places = {message: _Place() for message, _ in counters}
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        for message, counter in _COUNTING:
+        for message, counter in self._counters:
             frames, sound = chunk.frames(message), chunk.sound(message)
             if not frames.fresh:
                 continue
@@ -103,17 +103,20 @@ def _describe(counter: Counter, raw: NDArray[np.int64], steps: NDArray[np.int64]
     return _SKIPPED, {"before": before, "value": value, "due": due}
 
 
-RULE = Rule(
-    id="counter-sequence",
-    title=Text("Alive counters run on", "生命信号连续递增"),
-    purpose=Text(
-        "A counter that stays says that the sender hangs, one that leaves out values that frames "
-        "were lost. After more than five periods without a frame it may begin anywhere.",
-        "计数值不变说明发送方程序停滞,计数值跳变说明有帧丢失。超过五个周期没有报文后,计数可以从任意值开始。",
-    ),
-    clause="Table 1 row 8 (5.1.1), Table 14 row 2 (5.2.1), Table 17 row 1 (5.2.4), "
-    "Table 19 row 7 (5.5)",
-    severity=Severity.MUST,
-    judges=tuple(dict.fromkeys(message.SENDER for message, _ in _COUNTING)),
-    watch=CounterSequence,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    counting = tuple(
+        (message, counter) for message in protocol.messages if (counter := message.COUNTER)
+    )
+    return Rule(
+        id="counter-sequence",
+        title=Text("Alive counters run on", "生命信号连续递增"),
+        purpose=Text(
+            "A counter that stays says that the sender hangs, one that leaves out values that "
+            "frames were lost. After more than five periods without a frame it may begin anywhere.",
+            "计数值不变说明发送方程序停滞,计数值跳变说明有帧丢失。超过五个周期没有报文后,计数可以从任意值开始。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(message.SENDER for message, _ in counting)),
+        watch=partial(CounterSequence, counters=counting),
+    )

@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 from swapcan.conform.rule import Rule
-from swapcan.conform.rules.requests import answer_in_time, answer_unasked, request_withdrawn
-
-RULES: tuple[Rule, ...] = (
-    answer_in_time.RULE,
-    answer_unasked.RULE,
-    request_withdrawn.RULE,
+from swapcan.conform.rules.requests import (
+    answer_in_time,
+    answer_unasked,
+    request_withdrawn,
 )
+from typedcan.wire.protocol import Protocol
+
+
+def rules(protocol: Protocol) -> tuple[Rule, ...]:
+    """Those of a protocol, in the order of reports."""
+    return (
+        answer_in_time.rule(protocol),
+        answer_unasked.rule(protocol),
+        request_withdrawn.rule(protocol),
+    )

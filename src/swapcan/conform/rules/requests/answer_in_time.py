@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
@@ -14,15 +14,15 @@ from swapcan.conform.rules.requests.spells import Spell, Spells, first_after
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from typedcan.wire.message import Message
-from typedcan.wire.protocol import Request
+from typedcan.wire.protocol import Protocol, Request
 
 _SECONDS = Tolerance(
     name="answer-in-time.seconds",
     value=2.0,
     unit="s",
     text=Text(
-        "From a request to the last of its answers: twice the longest printed period, 1000 ms",
-        "从发出请求到收到全部应答的时间:最长规定周期 1000 ms 的两倍",
+        "From a request to the last of its answers",
+        "从发出请求到收到全部应答的时间",
     ),
 )
 
@@ -39,10 +39,12 @@ _SOME = 4096
 class AnswerInTime(Watcher):
     """Waits for the answers to each request that begins."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
         limit = findings.limit(_SECONDS)
-        self._waits = [_Wait(Spells(request), findings, limit) for request in PROTOCOL.requests]
+        self._waits = [
+            _Wait(Spells(request), protocol, findings, limit) for request in protocol.requests
+        ]
 
     def take(self, chunk: Chunk) -> None:
         """Judge the requests whose time is over, or that were answered."""
@@ -58,6 +60,7 @@ class _Wait:
     """
 
     spells: Spells
+    protocol: Protocol
     findings: Findings
     limit: float
     judged: Spell | None = None
@@ -86,12 +89,21 @@ class _Wait:
         if not missing:
             self.findings.examine(request.answers[0].SENDER)
             return True
-        self.seen = self.seen or _sent_anything(chunk, request, spell.begin.order, last)
+        self.seen = self.seen or self._sent_anything(chunk, spell.begin.order, last)
         if last is None:
             return False
         if last == over and self.seen:
             self._blame(request, spell, missing)
         return True
+
+    def _sent_anything(self, chunk: Chunk, after: int, before: int | None) -> bool:
+        """Whether the node that is asked sent a frame of any kind, between two others."""
+        for message in self.protocol.sent_by(self.spells.request.answers[0].SENDER):
+            series = chunk.frames(message)
+            row = first_after(series.order, after)
+            if row is not None and (before is None or series.order[row] < before):
+                return True
+        return False
 
     def _blame(self, request: Request, spell: Spell, missing: list[type[Message]]) -> None:
         message, field = request.field
@@ -124,28 +136,18 @@ def _first_later(chunk: Chunk, spell: Spell, time: float) -> int | None:
     return None
 
 
-def _sent_anything(chunk: Chunk, request: Request, after: int, before: int | None) -> bool:
-    """Whether the node that is asked sent a frame of any kind, between two others."""
-    for message in PROTOCOL.sent_by(request.answers[0].SENDER):
-        series = chunk.frames(message)
-        row = first_after(series.order, after)
-        if row is not None and (before is None or series.order[row] < before):
-            return True
-    return False
-
-
-RULE = Rule(
-    id="answer-in-time",
-    title=Text("Requests are answered in time", "请求得到及时应答"),
-    purpose=Text(
-        "Who asks for VIN, pack code or basic data waits for all messages of the answer. A node "
-        "that is not on the bus, and a request withdrawn before its time, are not judged.",
-        "请求 VIN、电池包编码或电池系统信息的节点需要收到全部应答报文。"
-        "不在总线上的节点以及提前撤销的请求不作判定。",
-    ),
-    clause="5.2.2; 5.1.7; 5.2.3; Table 3 row 1 (5.1.3); Table 16 rows 2 and 3 (5.2.3)",
-    severity=Severity.MUST,
-    judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in PROTOCOL.requests)),
-    tolerances=(_SECONDS,),
-    watch=AnswerInTime,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="answer-in-time",
+        title=Text("Requests are answered in time", "请求得到及时应答"),
+        purpose=Text(
+            "Who asks waits for all messages of the answer. A node that is not on the bus, and a "
+            "request withdrawn before its time, are not judged.",
+            "请求方需要收到全部应答报文。不在总线上的节点以及提前撤销的请求不作判定。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in protocol.requests)),
+        tolerances=(_SECONDS,),
+        watch=partial(AnswerInTime, protocol=protocol),
+    )

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
@@ -16,16 +16,15 @@ from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from typedcan.wire.message import Message
-from typedcan.wire.protocol import Request
+from typedcan.wire.protocol import Protocol, Request
 
 _SECONDS = Tolerance(
     name="answer-unasked.seconds",
     value=2.0,
     unit="s",
     text=Text(
-        "From the withdrawal of a request to the last frame of its answers: twice the longest "
-        "printed period, 1000 ms",
-        "从撤销请求到最后一帧应答的时间:最长规定周期 1000 ms 的两倍",
+        "From the withdrawal of a request to the last frame of its answers",
+        "从撤销请求到最后一帧应答的时间",
     ),
 )
 _BEGIN = Tolerance(
@@ -52,9 +51,9 @@ _NEVER = Text(
 class AnswerUnasked(Watcher):
     """Holds the frames of the answers against the requests in force."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._all = [_Asking(request, findings) for request in PROTOCOL.requests]
+        self._all = [_Asking(request, protocol, findings) for request in protocol.requests]
 
     def take(self, chunk: Chunk) -> None:
         """Judge the answers for which it is known whether they were asked for."""
@@ -65,8 +64,9 @@ class AnswerUnasked(Watcher):
 class _Asking:
     """One request and its answers."""
 
-    def __init__(self, request: Request, findings: Findings) -> None:
+    def __init__(self, request: Request, protocol: Protocol, findings: Findings) -> None:
         self._request = request
+        self._askers = protocol.sent_by(request.field.message.SENDER)
         self._findings = findings
         self._limit = findings.limit(_SECONDS)
         self._begin = findings.limit(_BEGIN)
@@ -79,7 +79,7 @@ class _Asking:
     def take(self, chunk: Chunk) -> None:
         message = self._request.field.message
         if self._asker is None:
-            self._asker = _earliest(chunk, PROTOCOL.sent_by(message.SENDER))
+            self._asker = _earliest(chunk, self._askers)
         if self._first is None:
             self._first = _earliest(chunk, (message,))
         spells = self._spells.take(chunk)
@@ -145,17 +145,17 @@ def _earliest(chunk: Chunk, messages: Iterable[type[Message]]) -> Moment | None:
     return min(found, key=lambda moment: moment.order, default=None)
 
 
-RULE = Rule(
-    id="answer-unasked",
-    title=Text("Answers come only when asked for", "仅在请求后发送应答"),
-    purpose=Text(
-        "VIN, pack code and basic data are events: they are sent at the wish of the other node "
-        "and only load the bus otherwise.",
-        "VIN、电池包编码和电池系统基本参数属于事件型报文,按对方需求发送;否则只会增加总线负载。",
-    ),
-    clause="5.2.2; 5.2.3; A.1 (type Event)",
-    severity=Severity.MUST,
-    judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in PROTOCOL.requests)),
-    tolerances=(_SECONDS, _BEGIN),
-    watch=AnswerUnasked,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="answer-unasked",
+        title=Text("Answers come only when asked for", "仅在请求后发送应答"),
+        purpose=Text(
+            "Answers are sent at the wish of the other node and only load the bus otherwise.",
+            "应答按对方需求发送;否则只会增加总线负载。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in protocol.requests)),
+        tolerances=(_SECONDS, _BEGIN),
+        watch=partial(AnswerUnasked, protocol=protocol),
+    )

@@ -7,26 +7,24 @@ from swapcan.conform.rules.timing import (
     bus_load,
     event_repeated,
     message_missing,
-    node_silence,
     period_gap,
     period_jitter,
     period_mean,
     period_short,
-    relays_before_command,
     start_complete,
-    start_state,
 )
+from typedcan.wire.protocol import Protocol
 
-RULES: tuple[Rule, ...] = (
-    period_mean.RULE,
-    period_jitter.RULE,
-    period_gap.RULE,
-    period_short.RULE,
-    node_silence.RULE,
-    event_repeated.RULE,
-    message_missing.RULE,
-    start_complete.RULE,
-    start_state.RULE,
-    relays_before_command.RULE,
-    bus_load.RULE,
-)
+
+def rules(protocol: Protocol) -> tuple[Rule, ...]:
+    """Those of a protocol, in the order of reports."""
+    return (
+        period_mean.rule(protocol),
+        period_jitter.rule(protocol),
+        period_gap.rule(protocol),
+        period_short.rule(protocol),
+        event_repeated.rule(protocol),
+        message_missing.rule(protocol),
+        start_complete.rule(protocol),
+        bus_load.rule(protocol),
+    )

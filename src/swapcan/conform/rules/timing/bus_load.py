@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.load import BIT_RATE
-from swapcan.conform.measure.traffic import Channel, Traffic
+from swapcan.conform.measure.traffic import Channel, Traffic, bits_of
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from typedcan.model.frame_time import Bits
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
     name="bus-load.share",
@@ -36,16 +37,15 @@ class BusLoad(Watcher):
     What is sent on events and on request is not judged: how much of it comes is up to who asks.
     """
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._traffic = Traffic()
+        self._nodes = protocol.nodes
         self._last = 0.0
         self._back = 0.0
         self._parts = 1
 
     def take(self, chunk: Chunk) -> None:
         """Count the frames."""
-        self._traffic.take(chunk)
         time = chunk.block.timestamp - chunk.begin
         steps = np.diff(time, prepend=self._last)
         # Where the clock was set back, more time passed than the log's end tells.
@@ -54,61 +54,68 @@ class BusLoad(Watcher):
         self._parts += len(back)
         self._last = float(time[-1])
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:
         """Judge each node on each channel."""
         seconds = self._last + self._back
         if seconds <= 0:
             return
-        for channel in dict.fromkeys(self._traffic.channels.values()):
-            messages = self._traffic.always(channel)
-            for node in PROTOCOL.nodes:
+        for channel in dict.fromkeys(end.traffic.channels.values()):
+            messages = end.traffic.always(channel)
+            for node in self._nodes:
                 own = [message for message in messages if node == message.SENDER]
                 if own:
-                    self._judge(node, channel, own, seconds)
+                    self._judge(node, channel, own, seconds, end.traffic)
 
     def _judge(
-        self, node: str, channel: Channel, messages: list[type[Message]], seconds: float
+        self,
+        node: str,
+        channel: Channel,
+        messages: list[type[Message]],
+        seconds: float,
+        traffic: Traffic,
     ) -> None:
         sent = expected = once = Bits()
         for message in messages:
-            bits = Bits.of(message.LENGTH, extended=True)
-            sent = sent.plus(bits, self._traffic.frames[message])
-            expected = expected.plus(bits, self._traffic.rate(message) * seconds)
-            once = once.plus(bits, self._traffic.per_cycle(message))
+            bits = bits_of(message)
+            sent = sent.plus(bits, traffic.frames[message])
+            expected = expected.plus(bits, traffic.rate(message) * seconds)
+            once = once.plus(bits, traffic.per_cycle(message))
         self.findings.examine(node)
         # What begins and ends with a frame has one cycle more than periods.
         more = once.bare * self._parts
         if sent.bare <= expected.bare * (1 + self.findings.limit(_SHARE)) + more:
             return
         name = "" if channel is None else str(channel)
+        rate = traffic.bit_rate(channel)
         self.findings.add(
             Occurrence(
                 subject=Subject(node, detail=name),
                 start=0.0,
                 end=seconds,
                 order=0,
-                frames=sum(self._traffic.frames[message] for message in messages),
+                frames=sum(traffic.frames[message] for message in messages),
                 measure=sent.bare / expected.bare,
                 text=_MORE,
                 values={
                     "channel": name or "CAN",
-                    "load": sent.bare / seconds / BIT_RATE,
-                    "expected": expected.bare / seconds / BIT_RATE,
+                    "load": sent.bare / seconds / rate,
+                    "expected": expected.bare / seconds / rate,
                 },
             )
         )
 
 
-RULE = Rule(
-    id="bus-load",
-    title=Text("The bus load is that of the standard", "总线负载符合标准"),
-    purpose=Text(
-        "A bus with more load than was planned delays all messages of low priority.",
-        "总线负载超出设计值会使低优先级报文延迟。",
-    ),
-    clause="A.1, 4.2.2",
-    severity=Severity.SHOULD,
-    judges=PROTOCOL.nodes,
-    tolerances=(_SHARE,),
-    watch=BusLoad,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="bus-load",
+        title=Text("The bus load is that of the standard", "总线负载符合标准"),
+        purpose=Text(
+            "A bus with more load than was planned delays all messages of low priority.",
+            "总线负载超出设计值会使低优先级报文延迟。",
+        ),
+        severity=Severity.SHOULD,
+        judges=protocol.nodes,
+        tolerances=(_SHARE,),
+        watch=partial(BusLoad, protocol=protocol),
+    )

@@ -3,28 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.asked import REQUESTS
+from swapcan.conform.measure.asked import requests_of
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from typedcan.wire.message import Message
-
-_EVENTS = tuple(message for message in PROTOCOL.messages if not message.PERIOD)
-
-_NUMBERS = {
-    message: transfer.frame_number.field
-    for transfer in PROTOCOL.transfers
-    for message in transfer.messages
-    if transfer.frame_number and message in _EVENTS
-}
-"""The fields that number the frames of those that come as several."""
+from typedcan.wire.protocol import Protocol
 
 _FRAMES = Tolerance(
     name="event-repeated.frames",
@@ -65,37 +56,45 @@ class _Run:
 class EventRepeated(Watcher):
     """Looks for runs of frames with the same payload that nobody asked for."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
+        self._events = _events(protocol)
+        self._requests = requests_of(protocol)
+        self._numbers = {
+            message: transfer.frame_number.field
+            for transfer in protocol.transfers
+            for message in transfer.messages
+            if transfer.frame_number and message in self._events
+        }
         self._runs: dict[tuple[type[Message], int], _Run] = {}
         self._asked: dict[type[Message], int] = {}  # where in the log it was last asked for
 
     def take(self, chunk: Chunk) -> None:
         """Go on with the runs."""
-        for message in _EVENTS:
-            asked = self._requests(chunk, message)
+        for message in self._events:
+            asked = self._askings(chunk, message)
             series = chunk.frames(message)
             if not series.fresh:
                 continue
             self.findings.examine(message.SENDER, series.fresh)
             keys = np.zeros(series.fresh, np.int64)
-            if message in _NUMBERS:
-                keys = series.raw(_NUMBERS[message])[series.first :]
+            if message in self._numbers:
+                keys = series.raw(self._numbers[message])[series.first :]
             for key in np.unique(keys).tolist():
                 rows = np.flatnonzero(keys == key) + series.first
                 frames = series.payload[rows], series.time[rows], series.order[rows]
                 self._go_on(message, key, *frames, asked)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """End all runs."""
         for (message, key), run in self._runs.items():
             self._judge(message, key, run)
 
-    def _requests(self, chunk: Chunk, message: type[Message]) -> NDArray[np.int64]:
+    def _askings(self, chunk: Chunk, message: type[Message]) -> NDArray[np.int64]:
         """Where in the log it was asked for: the last time before, and in the chunk."""
-        if message not in REQUESTS:
+        if message not in self._requests:
             return np.empty(0, np.int64)
-        request = REQUESTS[message]
+        request = self._requests[message]
         series = chunk.sound(request.field.message)
         own = series.order[series.raw(request.field.field) == request.code]
         asked = np.concatenate([[self._asked.get(message, -1)], own])
@@ -144,7 +143,10 @@ class EventRepeated(Watcher):
         self.findings.add(
             Occurrence(
                 subject=Subject(
-                    message.SENDER, message.NAME, "", f"frame {key}" if message in _NUMBERS else ""
+                    message.SENDER,
+                    message.NAME,
+                    "",
+                    f"frame {key}" if message in self._numbers else "",
                 ),
                 start=run.start,
                 end=run.end,
@@ -157,16 +159,21 @@ class EventRepeated(Watcher):
         )
 
 
-RULE = Rule(
-    id="event-repeated",
-    title=Text("Event messages are not sent cyclically", "事件报文不周期发送"),
-    purpose=Text(
-        "Who is asked without end answers without end, and the bus carries both.",
-        "不断的请求会引起不断的应答,占用总线。",
-    ),
-    clause="A.1",
-    severity=Severity.SHOULD,
-    judges=tuple(dict.fromkeys(message.SENDER for message in _EVENTS)),
-    tolerances=(_FRAMES, _APART),
-    watch=EventRepeated,
-)
+def _events(protocol: Protocol) -> tuple[type[Message], ...]:
+    return tuple(message for message in protocol.messages if not message.PERIOD)
+
+
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="event-repeated",
+        title=Text("Event messages are not sent cyclically", "事件报文不周期发送"),
+        purpose=Text(
+            "Who is asked without end answers without end, and the bus carries both.",
+            "不断的请求会引起不断的应答,占用总线。",
+        ),
+        severity=Severity.SHOULD,
+        judges=tuple(dict.fromkeys(message.SENDER for message in _events(protocol))),
+        tolerances=(_FRAMES, _APART),
+        watch=partial(EventRepeated, protocol=protocol),
+    )

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.presence import PERIODS, Presence
-from swapcan.conform.measure.steps import StepMeter
+from swapcan.conform.measure.presence import Presence, periods_of
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _PERIODS = Tolerance(
     name="message-missing.periods",
@@ -36,37 +36,27 @@ class MessageMissing(Watcher):
     sender sends something else to the same receiver.
     """
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._meter = StepMeter()
+        self._periods = periods_of(protocol)
 
     def take(self, chunk: Chunk) -> None:
-        """Note who sends what."""
-        self._meter.take(chunk)
+        """Nothing is missing before the end."""
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:
         """Judge all messages."""
-        for message, period in PERIODS.items():
-            sender = self._meter.nodes.get(message.SENDER)
+        for message, period in self._periods.items():
+            sender = end.nodes.get(message.SENDER)
             if sender is None:
                 continue
-            if message in self._meter.messages:
+            if message in end.messages:
                 self.findings.examine(message.SENDER)
                 continue
-            there = max((seen.seconds for seen in self._others(message)), default=0.0)
+            there = max((seen.seconds for seen in _others(message, end)), default=0.0)
             seconds = min(sender.seconds, there)
             if seconds > self.findings.limit(_PERIODS) * period:
                 self.findings.examine(message.SENDER)
                 self._found(message, period, sender, seconds)
-
-    def _others(self, message: type[Message]) -> Iterable[Presence]:
-        """What shows that the log has the bus on which a message is due."""
-        for node in message.RECEIVERS:
-            if node in self._meter.nodes:
-                yield self._meter.nodes[node]
-        for other, seen in self._meter.messages.items():
-            if other.SENDER == message.SENDER and set(other.RECEIVERS) & set(message.RECEIVERS):
-                yield seen
 
     def _found(
         self, message: type[Message], period: float, sender: Presence, seconds: float
@@ -84,16 +74,27 @@ class MessageMissing(Watcher):
         )
 
 
-RULE = Rule(
-    id="message-missing",
-    title=Text("All periodic messages are sent", "周期报文齐全"),
-    purpose=Text(
-        "A receiver waits for each message that the standard prints.",
-        "接收方等待标准规定的每个报文。",
-    ),
-    clause="A.1",
-    severity=Severity.MUST,
-    judges=PROTOCOL.nodes,
-    tolerances=(_PERIODS,),
-    watch=MessageMissing,
-)
+def _others(message: type[Message], end: LogEnd) -> Iterable[Presence]:
+    """What shows that the log has the bus on which a message is due."""
+    for node in message.RECEIVERS:
+        if node in end.nodes:
+            yield end.nodes[node]
+    for other, seen in end.messages.items():
+        if other.SENDER == message.SENDER and set(other.RECEIVERS) & set(message.RECEIVERS):
+            yield seen
+
+
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="message-missing",
+        title=Text("All periodic messages are sent", "周期报文齐全"),
+        purpose=Text(
+            "A receiver waits for each message that the standard prints.",
+            "接收方等待标准规定的每个报文。",
+        ),
+        severity=Severity.MUST,
+        judges=protocol.nodes,
+        tolerances=(_PERIODS,),
+        watch=partial(MessageMissing, protocol=protocol),
+    )

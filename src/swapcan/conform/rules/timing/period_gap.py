@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from functools import partial
+
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.presence import PERIODS
-from swapcan.conform.measure.steps import StepMeter
+from swapcan.conform.measure.presence import periods_of
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.timing.step_findings import add_steps
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
+from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
     name="period-gap.share",
@@ -50,28 +51,28 @@ def gap_limit(findings: Findings, period: float) -> float:
 class PeriodGap(Watcher):
     """Looks for long steps, and for messages that stop while their node goes on."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._meter = StepMeter()
+        self._periods = periods_of(protocol)
 
     def take(self, chunk: Chunk) -> None:
         """Judge the steps that end here."""
-        for message, steps in self._meter.take(chunk).steps.items():
+        for message, steps in chunk.timing.steps.items():
             if message.PERIOD:
                 limit = gap_limit(self.findings, message.PERIOD)
                 periods = steps.length / message.PERIOD
                 wrong = steps.length > limit
                 add_steps(self.findings, steps, wrong, periods, _GAP, {"limit": limit})
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:
         """Judge what stopped before its node did."""
-        for message, detail, time, order in self._meter.stopped():
-            node = self._meter.nodes[message.SENDER]
-            if message not in PERIODS:
+        for message, detail, time, order in end.stopped:
+            node = end.nodes[message.SENDER]
+            if message not in self._periods:
                 continue
             silent = (each.start for each in node.silences if each.start >= time)
             until = next(silent, node.last)
-            period, step = PERIODS[message], until - time
+            period, step = self._periods[message], until - time
             limit = gap_limit(self.findings, period)
             if step > limit:
                 self.findings.examine(message.SENDER)
@@ -93,16 +94,17 @@ class PeriodGap(Watcher):
                 )
 
 
-RULE = Rule(
-    id="period-gap",
-    title=Text("No periodic frame is missing", "周期报文无丢帧"),
-    purpose=Text(
-        "A receiver works with old values as long as a frame is missing.",
-        "报文缺失期间,接收方只能使用旧值。",
-    ),
-    clause="A.1",
-    severity=Severity.MUST,
-    judges=PROTOCOL.nodes,
-    tolerances=(_SHARE, _EXTRA),
-    watch=PeriodGap,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="period-gap",
+        title=Text("No periodic frame is missing", "周期报文无丢帧"),
+        purpose=Text(
+            "A receiver works with old values as long as a frame is missing.",
+            "报文缺失期间,接收方只能使用旧值。",
+        ),
+        severity=Severity.MUST,
+        judges=protocol.nodes,
+        tolerances=(_SHARE, _EXTRA),
+        watch=partial(PeriodGap, protocol=protocol),
+    )

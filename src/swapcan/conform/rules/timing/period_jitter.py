@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
+from functools import partial
+
 from swapcan.conform.findings import Said
 from swapcan.conform.measure.spread import Spread, spread_of
 from swapcan.conform.measure.steps import Steps
@@ -11,6 +12,7 @@ from swapcan.conform.rules.timing.period_gap import gap_limit
 from swapcan.conform.rules.timing.whole_log import WholeLog
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
+from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
     name="period-jitter.share",
@@ -60,16 +62,17 @@ class PeriodJitter(WholeLog):
         return share, (_UNEVEN, values)
 
 
-RULE = Rule(
-    id="period-jitter",
-    title=Text("Periodic frames come evenly", "周期报文间隔均匀"),
-    purpose=Text(
-        "A control loop closed over the bus needs fresh values at even steps.",
-        "通过总线闭环的控制需要间隔均匀的最新数据。",
-    ),
-    clause="A.1",
-    severity=Severity.SHOULD,
-    judges=PROTOCOL.nodes,
-    tolerances=(_SHARE, _LEAST),
-    watch=PeriodJitter,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="period-jitter",
+        title=Text("Periodic frames come evenly", "周期报文间隔均匀"),
+        purpose=Text(
+            "A control loop closed over the bus needs fresh values at even steps.",
+            "通过总线闭环的控制需要间隔均匀的最新数据。",
+        ),
+        severity=Severity.SHOULD,
+        judges=protocol.nodes,
+        tolerances=(_SHARE, _LEAST),
+        watch=partial(PeriodJitter, protocol=protocol),
+    )

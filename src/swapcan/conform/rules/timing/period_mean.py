@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
+from functools import partial
+
 from swapcan.conform.findings import Said
 from swapcan.conform.measure.spread import Spread
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.rules.timing.whole_log import WholeLog
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
+from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
     name="period-mean.share",
@@ -46,16 +48,17 @@ class PeriodMean(WholeLog):
         return off, (_OFF, {"mean": spread.mean, "count": spread.count, "period": period})
 
 
-RULE = Rule(
-    id="period-mean",
-    title=Text("Periods are those of the standard", "周期符合标准"),
-    purpose=Text(
-        "Receivers take a message for lost, and integrate values, by its printed period.",
-        "接收方按规定的周期判断报文超时并进行积分计算。",
-    ),
-    clause="A.1",
-    severity=Severity.MUST,
-    judges=PROTOCOL.nodes,
-    tolerances=(_SHARE, _LEAST),
-    watch=PeriodMean,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="period-mean",
+        title=Text("Periods are those of the standard", "周期符合标准"),
+        purpose=Text(
+            "Receivers take a message for lost, and integrate values, by its printed period.",
+            "接收方按规定的周期判断报文超时并进行积分计算。",
+        ),
+        severity=Severity.MUST,
+        judges=protocol.nodes,
+        tolerances=(_SHARE, _LEAST),
+        watch=partial(PeriodMean, protocol=protocol),
+    )

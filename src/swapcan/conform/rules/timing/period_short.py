@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Findings
-from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.rules.timing.step_findings import add_steps
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
+from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
     name="period-short.share",
@@ -29,14 +27,10 @@ _SHORT = Text(
 class PeriodShort(Watcher):
     """Looks for short steps."""
 
-    def __init__(self, findings: Findings) -> None:
-        super().__init__(findings)
-        self._meter = StepMeter()
-
     def take(self, chunk: Chunk) -> None:
         """Judge the steps that end here."""
         share = self.findings.limit(_SHARE)
-        for message, steps in self._meter.take(chunk).steps.items():
+        for message, steps in chunk.timing.steps.items():
             if message.PERIOD:
                 limit = share * message.PERIOD
                 short_by = 1 - steps.length / message.PERIOD
@@ -44,16 +38,17 @@ class PeriodShort(Watcher):
                 add_steps(self.findings, steps, wrong, short_by, _SHORT, {"limit": limit})
 
 
-RULE = Rule(
-    id="period-short",
-    title=Text("Periodic frames keep their distance", "周期报文保持间隔"),
-    purpose=Text(
-        "Frames in bursts keep others from the bus, and a receiver may see the last one only.",
-        "突发报文会占用总线,接收方可能只处理最后一帧。",
-    ),
-    clause="A.1",
-    severity=Severity.SHOULD,
-    judges=PROTOCOL.nodes,
-    tolerances=(_SHARE,),
-    watch=PeriodShort,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="period-short",
+        title=Text("Periodic frames keep their distance", "周期报文保持间隔"),
+        purpose=Text(
+            "Frames in bursts keep others from the bus, and a receiver may see the last one only.",
+            "突发报文会占用总线,接收方可能只处理最后一帧。",
+        ),
+        severity=Severity.SHOULD,
+        judges=protocol.nodes,
+        tolerances=(_SHARE,),
+        watch=PeriodShort,
+    )

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.presence import PERIODS, Start
-from swapcan.conform.measure.steps import StepMeter
+from swapcan.conform.measure.presence import Start, periods_of
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _QUIET = Tolerance(
     name="start-complete.quiet",
@@ -52,16 +52,16 @@ _NEVER = Text(
 class StartComplete(Watcher):
     """Waits for the first frame of each message after each start of its node."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._meter = StepMeter()
+        self._periods = periods_of(protocol)
         self._waiting: dict[type[Message], Start] = {}
         self._never: list[tuple[type[Message], Start, float]] = []
 
     def take(self, chunk: Chunk) -> None:
         """Judge the first frames that are here."""
-        for start in self._meter.take(chunk).starts:
-            for message in PERIODS:
+        for start in chunk.timing.starts:
+            for message in self._periods:
                 if start.node == message.SENDER:
                     self._look(chunk.frames(message), start.order)
                     self._give_up(message, start.after.start if start.after else start.time)
@@ -70,12 +70,12 @@ class StartComplete(Watcher):
         for message in tuple(self._waiting):
             self._look(chunk.frames(message), math.inf)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:
         """Judge what never came, if it is a message that the node sends at all."""
         for message in tuple(self._waiting):
-            self._give_up(message, self._meter.nodes[message.SENDER].last)
+            self._give_up(message, end.nodes[message.SENDER].last)
         for message, start, until in self._never:
-            if message in self._meter.messages:
+            if message in end.messages:
                 self._judge(message, start, until, start.order, _NEVER)
 
     def _look(self, series: Series, until: float) -> None:
@@ -107,27 +107,28 @@ class StartComplete(Watcher):
                     start=start.time,
                     end=end,
                     order=order,
-                    measure=step / PERIODS[message],
+                    measure=step / self._periods[message],
                     text=text,
                     values={"step": step, "limit": limit, "node": message.SENDER},
                 )
             )
 
     def _limit(self, message: type[Message]) -> float:
-        periods = self.findings.limit(_PERIODS) * PERIODS[message]
+        periods = self.findings.limit(_PERIODS) * self._periods[message]
         return periods + self.findings.limit(_EXTRA)
 
 
-RULE = Rule(
-    id="start-complete",
-    title=Text("A node that starts sends all its messages", "节点启动后报文齐全"),
-    purpose=Text(
-        "Others can work with a node only when they have all of its messages.",
-        "其他节点收齐其全部报文后才能正常工作。",
-    ),
-    clause="A.1",
-    severity=Severity.MUST,
-    judges=PROTOCOL.nodes,
-    tolerances=(_QUIET, _PERIODS, _EXTRA),
-    watch=StartComplete,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="start-complete",
+        title=Text("A node that starts sends all its messages", "节点启动后报文齐全"),
+        purpose=Text(
+            "Others can work with a node only when they have all of its messages.",
+            "其他节点收齐其全部报文后才能正常工作。",
+        ),
+        severity=Severity.MUST,
+        judges=protocol.nodes,
+        tolerances=(_QUIET, _PERIODS, _EXTRA),
+        watch=partial(StartComplete, protocol=protocol),
+    )

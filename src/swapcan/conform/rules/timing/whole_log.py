@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Said, Subject
 from swapcan.conform.measure.spread import Spread
-from swapcan.conform.measure.steps import StepMeter, Steps
+from swapcan.conform.measure.steps import Steps
 from swapcan.conform.rule import Watcher
+from typedcan.wire.protocol import Protocol
 
 
 class WholeLog(Watcher):
     """Adds up the steps of each message."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._meter = StepMeter()
-        self._spread = dict.fromkeys(PROTOCOL.messages, Spread())
+        self._spread = dict.fromkeys(protocol.messages, Spread())
 
     @property
     @abstractmethod
@@ -35,16 +34,16 @@ class WholeLog(Watcher):
 
     def take(self, chunk: Chunk) -> None:
         """Add the steps that end here."""
-        for message, steps in self._meter.take(chunk).steps.items():
+        for message, steps in chunk.timing.steps.items():
             if message.PERIOD:
                 self._spread[message] += self.spread(message.PERIOD, steps)
 
-    def finish(self, end: float) -> None:  # noqa: ARG002
+    def finish(self, end: LogEnd) -> None:
         """Judge each message that came often enough."""
         for message, spread in self._spread.items():
             if not message.PERIOD or spread.count < max(self.least, 1):
                 continue
-            seen = self._meter.messages[message]
+            seen = end.messages[message]
             self.findings.examine(message.SENDER)
             measure, said = self.judge(message.PERIOD, spread)
             if said:

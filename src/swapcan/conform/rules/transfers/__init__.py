@@ -1,36 +1,13 @@
-"""Values that take several frames."""
+"""Values that take several frames, by the kinds of their transfers."""
 
 from __future__ import annotations
 
 from swapcan.conform.rule import Rule
-from swapcan.conform.rules.transfers import (
-    cells_complete,
-    cells_order,
-    frame_numbers,
-    pack_code_characters,
-    pack_code_constant,
-    pack_code_length,
-    pack_code_transfer,
-    probes_complete,
-    probes_order,
-    vin_characters,
-    vin_check_digit,
-    vin_letters,
-    vin_transfer,
-)
+from swapcan.conform.rules.transfers import cycle_watch, frame_numbers
+from swapcan.conform.scope import Scope
+from typedcan.wire.protocol import Protocol
 
-RULES: tuple[Rule, ...] = (
-    vin_transfer.RULE,
-    vin_characters.RULE,
-    vin_letters.RULE,
-    vin_check_digit.RULE,
-    pack_code_transfer.RULE,
-    pack_code_characters.RULE,
-    pack_code_length.RULE,
-    pack_code_constant.RULE,
-    cells_complete.RULE,
-    cells_order.RULE,
-    probes_complete.RULE,
-    probes_order.RULE,
-    frame_numbers.RULE,
-)
+
+def rules(protocol: Protocol, scope: Scope) -> tuple[Rule, ...]:
+    """Those of a protocol, in the order of reports."""
+    return (*cycle_watch.rules(protocol, scope), frame_numbers.rule(protocol))

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Said, Subject
+from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.measure.steps import keyed
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series, latest
 from swapcan.conform.text import Text
-from typedcan.wire.protocol import FieldRef
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import FieldRef, Protocol
 
-_PARTS = tuple(
-    (transfer.messages[0], transfer.group.field, transfer.frame_number.field, transfer.groups_field)
-    for transfer in PROTOCOL.transfers
-    if transfer.group and transfer.frame_number and transfer.groups_field
-)
-_NODE = _PARTS[0][0].SENDER
+Part = tuple[type[Message], str, str, FieldRef]
+"""A message, its fields of the group and of the frame number, and what tells how many groups."""
 
 _BELOW = Text(
     "CSC {csc} frame {number}; both are numbered from 1",
@@ -31,11 +31,15 @@ _ABOVE = Text(
 
 
 class FrameNumbers(Watcher):
-    """Judges both numbers; the number of CSCs as soon as the pack has told it."""
+    """Judges both numbers; that of groups as soon as it is announced how many there are."""
+
+    def __init__(self, findings: Findings, parts: Sequence[Part]) -> None:
+        super().__init__(findings)
+        self._parts = parts
 
     def take(self, chunk: Chunk) -> None:
-        """Judge all frames of cells and probes."""
-        for message, group, number, totals in _PARTS:
+        """Judge all frames with such numbers."""
+        for message, group, number, totals in self._parts:
             series = chunk.frames(message)
             if series.fresh:
                 self._judge(series, chunk.sound(totals.message), totals, group, number)
@@ -59,7 +63,8 @@ class FrameNumbers(Watcher):
             name = totals.message.FIELDS[totals.field].dbc_name
             return _ABOVE, {"csc": csc, "totals": name, "count": int(count[at])}
 
-        self.findings.rows(Subject(_NODE, series.message.NAME), series, wrong, describe)
+        subject = Subject(series.message.SENDER, series.message.NAME)
+        self.findings.rows(subject, series, wrong, describe)
 
 
 def _told(
@@ -73,16 +78,22 @@ def _told(
     return known[latest(told, series)[series.first :] + 1]
 
 
-RULE = Rule(
-    id="frame-numbers",
-    title=Text("CSCs and frames are numbered from 1", "CSC 编号和帧序号从 1 开始"),
-    purpose=Text(
-        "A receiver finds the place of a cell or probe by these numbers; tables 9 and 10 begin "
-        "them at 1, and the pack tells how many CSCs it has.",
-        "接收方通过这些编号确定电芯和探针的位置;表 9、表 10 规定从 1 开始,电池包给出 CSC 总数。",
-    ),
-    clause="Tables 9 and 10 rows 1 and 2 (5.1.8, 5.1.9); Table 13 row 6 (5.1.12)",
-    severity=Severity.MUST,
-    judges=(_NODE,),
-    watch=FrameNumbers,
-)
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    parts = tuple(
+        (message, group, number, transfer.groups_field)
+        for transfer in protocol.transfers
+        for message, (group, number) in keyed(protocol).items()
+        if message is transfer.messages[0] and transfer.groups_field
+    )
+    return Rule(
+        id="frame-numbers",
+        title=Text("Groups and frames are numbered from 1", "分组编号和帧序号从 1 开始"),
+        purpose=Text(
+            "A receiver finds the place of a reading by these numbers.",
+            "接收方通过这些编号确定数据的位置。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(message.SENDER for message, *_ in parts)),
+        watch=partial(FrameNumbers, parts=parts),
+    )

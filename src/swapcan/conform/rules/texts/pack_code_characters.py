@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.transfers.pack_code_parts import (
+from swapcan.conform.rules.texts.pack_code_parts import (
     LENGTH,
     NODE,
     ROOM,

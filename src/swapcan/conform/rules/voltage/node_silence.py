@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.measure.silences import HV_ON, KnownSilence, Silences
-from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST1
@@ -28,24 +27,23 @@ class NodeSilence(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._meter = StepMeter()
-        self._silences = Silences(self._meter)
+        self._silences = Silences()
         self._was_on = False
 
     def take(self, chunk: Chunk) -> None:
         """Judge the silences that end here."""
-        for each in self._silences.take(chunk, self._meter.take(chunk)):
+        for each in self._silences.take(chunk):
             self._judge(each)
         status = chunk.sound(B2V_ST1)
         if status.fresh and not self._was_on:
             self._was_on = bool(np.isin(status.new_raw("bms"), HV_ON).any())
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge those that last to the end."""
         for each in self._silences.finish(end):
             self._judge(each)
         if self._was_on:
-            for node in self._meter.nodes:
+            for node in end.nodes:
                 self.findings.examine(node)
 
     def _judge(self, found: KnownSilence) -> None:

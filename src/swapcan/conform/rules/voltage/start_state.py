@@ -8,7 +8,6 @@ from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.measure.presence import Start
 from swapcan.conform.measure.silences import HV_ON, Silences
-from swapcan.conform.measure.steps import StepMeter
 from swapcan.conform.rule import Rule, Severity, Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
@@ -39,20 +38,16 @@ class StartState(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._meter = StepMeter()
-        self._silences = Silences(self._meter)
+        self._silences = Silences()
         self._started: Start | None = None
 
     def take(self, chunk: Chunk) -> None:
         """Judge the starts whose first status is here."""
-        timing = self._meter.take(chunk)
         under_voltage = {
-            found.silence
-            for found in self._silences.take(chunk, timing)
-            if found.known.high_voltage_on
+            found.silence for found in self._silences.take(chunk) if found.known.high_voltage_on
         }
         status = chunk.sound(B2V_ST1)
-        for start in timing.starts:
+        for start in chunk.timing.starts:
             if start.node == B2V_ST1.SENDER:
                 self._judge(status, start.order)
                 real = self._is_quiet(start) and start.after not in under_voltage

@@ -5,7 +5,7 @@ from __future__ import annotations
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.transfers.vin_sets import VinFrame, VinSets, is_whole
+from swapcan.conform.rules.texts.vin_sets import VinFrame, VinSets, is_whole
 from swapcan.conform.text import Text
 from swapcan.transfer.text import VIN
 from swapcan.transfer.vin import VIN_LENGTH, check_digit

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.transfers.vin_sets import NUMBERS, VinFrame, VinSets, is_whole
+from swapcan.conform.rules.texts.vin_sets import NUMBERS, VinFrame, VinSets, is_whole
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.transfer.text import VIN
@@ -46,10 +46,10 @@ class VinTransfer(Watcher):
         for frames in self._sets.take(chunk):
             self._judge(frames)
 
-    def finish(self, end: float) -> None:
+    def finish(self, end: LogEnd) -> None:
         """Judge the set under way where it should be over."""
         frames = self._sets.open
-        if frames and end - frames[0].time > self._limit:
+        if frames and end.time - frames[0].time > self._limit:
             self._judge(frames)
 
     def _judge(self, frames: list[VinFrame]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.rules.transfers.vin_letters_watch import VinLettersWatcher
+from swapcan.conform.rules.texts.vin_letters_watch import VinLettersWatcher
 from swapcan.conform.text import Text
 from swapcan.transfer.text import VIN
 from typedcan.transfer.layout import characters

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform.chunk import Chunk
+from swapcan.conform.decoded import DecodedChunk
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 EXTENDED = 1 << 31
 """Set in a key beside the identifier where that has 29 bits."""
 
-_MESSAGES = {message.FRAME_ID | EXTENDED: message for message in PROTOCOL.messages}
-KEYS = np.array(list(_MESSAGES), np.uint32)
-"""Those of the protocol, as `LeftOver` has them."""
+
+def keys_of(protocol: Protocol) -> dict[int, type[Message]]:
+    """The messages of a protocol by their identifiers, as `LeftOver` has them."""
+    return {
+        message.FRAME_ID | (EXTENDED if message.EXTENDED else 0): message
+        for message in protocol.messages
+    }
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +39,15 @@ class LeftOver:
         int64, rows of the block, in the order of ``keys`` and ascending for each.
     bounds
         int64, where in ``rows`` each of ``keys`` begins, and where the last ends.
+    messages
+        The messages of the protocol by their keys.
     """
 
     errors: NDArray[np.int64]
     keys: NDArray[np.uint32]
     rows: NDArray[np.int64]
     bounds: NDArray[np.int64]
+    messages: Mapping[int, type[Message]]
 
     def of(self, places: NDArray[np.int64]) -> list[tuple[int, NDArray[np.int64]]]:
         """The keys at some places, and the rows of each."""
@@ -49,38 +56,33 @@ class LeftOver:
             for place in places.tolist()
         ]
 
-    def by_message(self) -> list[tuple[type[Message], NDArray[np.int64]]]:
+    def of_messages(self) -> list[tuple[type[Message], NDArray[np.int64]]]:
         """Where identifiers of the protocol are left over, their messages and rows."""
-        known = np.flatnonzero(np.isin(self.keys, KEYS))
-        return [(_MESSAGES[key], rows) for key, rows in self.of(known)]
+        known = np.isin(self.keys, np.fromiter(self.messages, np.uint32))
+        return [(self.messages[key], rows) for key, rows in self.of(np.flatnonzero(known))]
 
 
 _NONE = np.empty(0, np.int64)
-_NOTHING = LeftOver(_NONE, np.empty(0, np.uint32), _NONE, np.zeros(1, np.int64))
-_made: WeakKeyDictionary[Chunk, LeftOver] = WeakKeyDictionary()
 
 
-def left_over(chunk: Chunk) -> LeftOver:
-    """What is left of a chunk; made once for all rules that ask."""
-    found = _made.get(chunk)
-    if found is None:
-        found = _made[chunk] = _left_over(chunk)
-    return found
-
-
-def _left_over(chunk: Chunk) -> LeftOver:
+def left_over(chunk: DecodedChunk, messages: Mapping[int, type[Message]]) -> LeftOver:
+    """What is left of a chunk; ``messages`` as `keys_of` gives them."""
     block = chunk.block
-    every = [chunk.frames(message) for message in PROTOCOL.messages]
+    every = [chunk.frames(message) for message in messages.values()]
     if sum(series.fresh for series in every) == len(block):
-        return _NOTHING
+        return LeftOver(_NONE, np.empty(0, np.uint32), _NONE, np.zeros(1, np.int64), messages)
     others = np.ones(len(block), np.bool_)
     for series in every:
         others[series.order[series.first :] - chunk.first_order] = False
     errors = others & ((block.flags & FrameFlag.ERROR) != 0)
-    return _grouped(block, np.flatnonzero(errors), np.flatnonzero(others & ~errors))
+    rows = np.flatnonzero(others & ~errors)
+    return LeftOver(np.flatnonzero(errors), *_grouped(block, rows), messages)
 
 
-def _grouped(block: FrameBlock, errors: NDArray[np.int64], rows: NDArray[np.int64]) -> LeftOver:
+def _grouped(
+    block: FrameBlock, rows: NDArray[np.int64]
+) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
+    """The keys, rows and bounds of `LeftOver`."""
     extended = (block.flags[rows] & np.uint8(FrameFlag.EXTENDED)).astype(np.uint32)
     keys = block.frame_id[rows] | (extended << np.uint32(31))
     # Numbers of 16 bits are sorted by their digits: two rounds of it are faster than one sort.
@@ -88,4 +90,4 @@ def _grouped(block: FrameBlock, errors: NDArray[np.int64], rows: NDArray[np.int6
     order = order[np.argsort((keys[order] >> np.uint32(16)).astype(np.uint16), kind="stable")]
     keys = keys[order]
     begins = np.flatnonzero(np.diff(keys, prepend=~keys[:1]))
-    return LeftOver(errors, keys[begins], rows[order], np.append(begins, len(rows)))
+    return keys[begins], rows[order], np.append(begins, len(rows))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Said, Subject
 from swapcan.conform.rule import Rule, Severity, Watcher
-from swapcan.conform.rules.transfers.pack_code_parts import LENGTH, NODE, ROOM
+from swapcan.conform.rules.texts.pack_code_parts import LENGTH, NODE, ROOM
 from swapcan.conform.text import Text
 
 _CHARACTERS = 24
