@@ -8,8 +8,8 @@ import numpy as np
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.lasting import LastingWatcher
 from swapcan.conform.measure.beside import Beside
-from swapcan.conform.measure.lasting import LastingWatcher
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl

@@ -8,7 +8,7 @@ import numpy as np
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
-from swapcan.conform.measure.lasting import Lasting, LastingWatcher
+from swapcan.conform.lasting import Lasting, LastingWatcher
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text

@@ -6,7 +6,7 @@ from functools import partial
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
-from swapcan.conform.measure.lasting import LastingWatcher
+from swapcan.conform.lasting import LastingWatcher
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.text import Text
 from swapcan.messages import C2B_ACStatus

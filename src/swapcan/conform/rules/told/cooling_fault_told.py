@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
-from swapcan.conform.measure.lasting import LastingWatcher
+from swapcan.conform.lasting import LastingWatcher
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.text import Text
 from swapcan.messages import TMS_BMS_0

@@ -8,8 +8,8 @@ import numpy as np
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.lasting import LastingWatcher
 from swapcan.conform.measure.beside import Beside, fresh
-from swapcan.conform.measure.lasting import LastingWatcher
 from swapcan.conform.measure.since import Since
 from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.rules.voltage.command import moving

@@ -7,8 +7,8 @@ import numpy as np
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform.chunk import Chunk, LogEnd
 from swapcan.conform.findings import Findings, Occurrence, Subject
-from swapcan.conform.measure.silences import HV_ON, KnownSilence, Silences
 from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.rules.voltage.known_silences import HV_ON, KnownSilence, Silences
 from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST1
 

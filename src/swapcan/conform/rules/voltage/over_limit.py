@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Said, Subject
+from swapcan.conform.lasting import LastingWatcher
 from swapcan.conform.measure.beside import Beside
-from swapcan.conform.measure.lasting import LastingWatcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance

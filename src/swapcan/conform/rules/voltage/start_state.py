@@ -7,8 +7,8 @@ import math
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.findings import Findings, Occurrence, Subject
 from swapcan.conform.measure.presence import Start
-from swapcan.conform.measure.silences import HV_ON, Silences
 from swapcan.conform.rule import Rule, Severity, Watcher
+from swapcan.conform.rules.voltage.known_silences import HV_ON, Silences
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.conform.tolerance import Tolerance
