@@ -11,6 +11,7 @@ from typedcan.model.errors import ReadError
 from typedcan.model.layout import bits
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Message, Protocol, Signal, ValueTable
+from typedcan.model.transfers.registry import KINDS
 from typedcan.shell.printing import printable
 
 _LETTERS = string.ascii_lowercase + string.ascii_uppercase
@@ -37,6 +38,7 @@ def show(protocol: Protocol, message: Message) -> str:
         list(_signals(message)),
         list(_codes(message)),
         list(_acts(message)),
+        list(_transfers(protocol, message)),
         list(_errata(protocol, message)),
     ]
     return "\n\n".join("\n".join(map(printable, block)) for block in blocks if block) + "\n"
@@ -134,6 +136,24 @@ def _acts(message: Message) -> Iterator[str]:
             safe = f"{acting.safe} {labels.get(acting.safe, '')}".strip()
             cited = f" ({acting.reference})" if acting.reference else ""
             yield from _indented(f"{signal.name} {what}: {codes}; safe: {safe}{cited}")
+
+
+def _transfers(protocol: Protocol, message: Message) -> Iterator[str]:
+    """What the message carries parts of, and how."""
+    names = {message.name, *(signal.name for signal in message.signals)}
+    for transfer in protocol.transfers:
+        told = (transfer.count_signal, transfer.groups_signal)
+        if not names.intersection((*transfer.messages, *told)):
+            continue
+        kind = KINDS.get(transfer.kind)
+        purpose = f", {kind.purpose}" if kind else ""
+        yield from _indented(
+            f"Transfer {transfer.name}: {transfer.english or transfer.kind}{purpose}"
+        )
+        for key, value in transfer.given().items():
+            if key not in ("name", "english"):
+                text = ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
+                yield from _indented(f"    {key}: {text}")
 
 
 def _errata(protocol: Protocol, message: Message) -> Iterator[str]:

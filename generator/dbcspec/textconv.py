@@ -16,9 +16,9 @@ from typedcan.model.protocol import (
     Protocol,
     Request,
     Signal,
-    Transfer,
     ValueTable,
 )
+from typedcan.model.transfer import Transfer
 from typedcan.shell.printing import printable, printable_json
 
 _Fact = tuple[str, object]
@@ -180,19 +180,15 @@ def _codes(table: ValueTable) -> Iterator[_Fact]:
 
 
 def _transfer(transfer: Transfer) -> list[_Fact]:
-    return [
-        ("english", transfer.english),
-        *_names("message", transfer.messages),
-        *_names("item", transfer.items),
-        ("count", transfer.count),
-        ("count signal", _Bare(transfer.count_signal)),
-        ("frame number", _Bare(transfer.frame_number)),
-        ("group", _Bare(transfer.group)),
-        ("groups signal", _Bare(transfer.groups_signal)),
-        ("length signal", _Bare(transfer.length_signal)),
-        ("numbered", _Bare("within group" if transfer.numbered_within_group else "throughout")),
-        ("fill", transfer.fill),
-    ]
+    facts: list[_Fact] = []
+    for name, value in transfer.given().items():
+        words = name.replace("_", " ")
+        if isinstance(value, tuple):
+            facts += _names(words.removesuffix("s"), map(str, value))
+        elif name != "name":
+            bare = isinstance(value, str) and name != "english"
+            facts.append((words, _Bare(value) if bare else value))
+    return facts
 
 
 def _request(request: Request) -> list[_Fact]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.transfer.readings import TABLES
 from typedcan.logs.protocol import known
 
-OWN = known(PROTOCOL.model, TABLES)
+OWN = known(PROTOCOL.model)
 """All that is known of it; its tables of readings are called ``cells`` and ``probes``."""
 
 CELLS, PROBES = OWN.readings

@@ -24,11 +24,12 @@ from cantools.database.can import Message as CantoolsMessage
 from typedcan.model import layout
 from typedcan.model.errors import one_line
 from typedcan.model.protocol import Signal
+from typedcan.model.signal_state import SignalState
 from typedcan.shell.printing import print_line
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import Entry, database
 from typedcan.wire.errors import EncodeError
-from typedcan.wire.fields import Field, FloatField, PhysicalField, SignalState
+from typedcan.wire.fields import Field, FloatField, PhysicalField
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 

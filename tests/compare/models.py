@@ -24,9 +24,9 @@ from typedcan.model.protocol import (
     Request,
     SendType,
     Signal,
-    Transfer,
     ValueTable,
 )
+from typedcan.model.transfer import Counted, Ending, Numbering, Transfer
 
 NOT_COMPARED = {
     "Protocol.name": "what a file is called is no promise",
@@ -134,20 +134,35 @@ def nodes(name: str) -> st.SearchStrategy[Node]:
     )
 
 
+amounts = st.none() | st.integers(0, 9)
 transfers = st.builds(
     Transfer,
     name=st.just("text"),
     english=texts,
+    kind=texts,
     messages=st.sampled_from([("M1",), ("M1", "M2")]),
     items=st.sampled_from([(), ("M1_A",), ("M1_A", "M1_B")]),
-    count=st.none() | st.integers(0, 9),
-    count_signal=texts,
     frame_number=texts,
+    first_number=st.integers(0, 1),
+    numbering=st.sampled_from(Numbering),
     group=texts,
+    first_group=st.integers(0, 1),
+    groups=amounts,
     groups_signal=texts,
+    count=amounts,
+    count_signal=texts,
+    counted=st.sampled_from(Counted),
+    counts=st.sampled_from([(), (1,), (1, 2)]),
+    length=st.sampled_from(Ending),
     length_signal=texts,
-    numbered_within_group=st.booleans(),
-    fill=st.none() | st.integers(0, 9),
+    fill=amounts,
+    encoding=texts,
+    details=st.sampled_from([(), ("M1_A",), ("M1_A", "M1_B")]),
+    period=amounts,
+    timeout=st.none() | st.decimals(0, 9, places=1),
+    rounds=amounts,
+    table=texts,
+    column=texts,
 )
 requests = st.builds(
     Request,

@@ -27,6 +27,7 @@ NOT_IN_A_DBC = frozenset(
         "message-counter-same",
         "transfer-layout-same",
         "transfer-name-same",
+        "transfer-reception-same",
         "request-same",
         "bus-present",
         "bus-added",

@@ -16,6 +16,7 @@ from dbcspec.compare.run import compare, worst
 from typedcan.model import protocol as model
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Aspect, Protocol
+from typedcan.model.transfer import Transfer
 from typedcan.report.item import LEVELS
 
 PLACES_OF = {
@@ -109,7 +110,7 @@ def test_findings_say_what_a_report_needs(old: Protocol, new: Protocol) -> None:
 def test_every_field_of_the_model_is_changed_by_some_mutation(protocol: Protocol) -> None:
     kinds = (
         *(model.Protocol, model.Node, model.Bus, model.Message, model.Signal, model.Code),
-        *(model.ValueTable, model.Checksum, model.Counter, model.Transfer, model.Request),
+        *(model.ValueTable, model.Checksum, model.Counter, Transfer, model.Request),
         *(model.Erratum, ActingCodes),
     )
     fields = {
@@ -127,4 +128,5 @@ def test_every_field_of_the_model_is_changed_by_some_mutation(protocol: Protocol
         "Message.other_senders",
         "Node.other_addresses",
         "Message.signals",
+        "Transfer.counts",
     }

@@ -13,7 +13,8 @@ from logs.decode_databases import Frame, block_of
 from typedcan.logs.cells.arrow import CellTables
 from typedcan.logs.decode import Decoder
 from typedcan.logs.protocol import known
-from typedcan.model.protocol import Message, Protocol, Signal, Transfer
+from typedcan.model.protocol import Message, Protocol, Signal
+from typedcan.model.transfer import Numbering, Transfer
 
 
 def signal(name: str, start: int, length: int = 8, **facts: Any) -> Signal:
@@ -52,13 +53,14 @@ TOTALS = Message(
 SHELF_LOADS = Transfer(
     name="shelf_loads",
     english="Loads of all shelves",
+    kind="readings_by_group",
     messages=("Loads",),
     items=("Left", "Right"),
     count_signal="Loads_",
     frame_number="Part",
     group="Shelf",
     groups_signal="Shelves",
-    numbered_within_group=True,
+    numbering=Numbering.WITHIN_GROUP,
 )
 RACK = Protocol(name="rack", messages=(LOADS, TOTALS), transfers=(SHELF_LOADS,))
 FRAMES = [
@@ -68,9 +70,9 @@ FRAMES = [
 ]
 
 
-def rows(names: dict[str, tuple[str, str]]) -> dict[str, list[dict[str, Any]]]:
+def rows(**facts: Any) -> dict[str, list[dict[str, Any]]]:
     """The rows of all tables, by their names."""
-    protocol = known(RACK, names)
+    protocol = known(replace(RACK, transfers=(replace(SHELF_LOADS, **facts),)))
     block = block_of(FRAMES)
     block.timestamp[:] = [0.0, 0.01, 0.02]
     block.channel[:] = 0
@@ -81,7 +83,7 @@ def rows(names: dict[str, tuple[str, str]]) -> dict[str, list[dict[str, Any]]]:
 
 
 def test_tables_and_columns_are_called_like_the_transfer() -> None:
-    [(name, [row])] = rows({}).items()
+    [(name, [row])] = rows().items()
     assert name == "shelf_loads_2x2"
     loads = {key: value for key, value in row.items() if not key.endswith(".state")}
     assert loads == {
@@ -95,7 +97,7 @@ def test_tables_and_columns_are_called_like_the_transfer() -> None:
 
 
 def test_tables_and_columns_have_the_names_that_are_given() -> None:
-    [(name, [row])] = rows({"shelf_loads": ("loads", "load")}).items()
+    [(name, [row])] = rows(table="loads", column="load").items()
     assert name == "loads_2x2"
     assert row["load_2_1"] == 15.0
 
@@ -105,7 +107,7 @@ def test_tables_and_columns_have_the_names_that_are_given() -> None:
     [
         {"group": ""},
         {"groups_signal": ""},
-        {"numbered_within_group": False},
+        {"numbering": Numbering.THROUGH},
         {"count_signal": "", "count": 4},
     ],
 )

@@ -158,7 +158,7 @@ def test_a_vin_that_is_not_set_is_reported_as_its_characters() -> None:
     assembler = VinAssembler()
     frames = delivered(V2B_VIN(frame_no=number) for number in (1, 2, 3))
     [*_, (problem,)] = [assembler.take(frame, 0.0) for frame in frames]
-    text = "vin: character 1 is 0x00, which is no digit or capital letter"
+    text = "vin: character 1 is 0x00, which is none of 0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
     assert isinstance(problem, Problem)
     assert (problem.kind, str(problem)) == ("character", text)
 

@@ -57,6 +57,7 @@ from dbcspec.compare import (
     signal_unit_same,
     transfer_layout_same,
     transfer_name_same,
+    transfer_reception_same,
     value_table_name_same,
 )
 from dbcspec.compare.promise import Promise
@@ -103,6 +104,7 @@ PROMISES: tuple[Promise, ...] = (
     node_name_same.PROMISE,
     bus_name_same.PROMISE,
     transfer_name_same.PROMISE,
+    transfer_reception_same.PROMISE,
     enum_member_name_same.PROMISE,
     value_table_name_same.PROMISE,
     field_name_same.PROMISE,

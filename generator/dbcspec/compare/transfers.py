@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from enum import Enum
 
 from dbcspec.compare.pairing import Pairing
-from typedcan.model.protocol import Transfer
+from typedcan.model.transfer import Transfer
 
 
 def transfer_pairs(pairing: Pairing) -> Iterator[tuple[Transfer | None, Transfer | None]]:
@@ -25,26 +27,32 @@ def transfer_pairs(pairing: Pairing) -> Iterator[tuple[Transfer | None, Transfer
         yield None, new
 
 
+CALLED = ("name", "table", "column")
+"""What programs call a transfer and its tables."""
+
+RECEIVED = ("timeout", "rounds")
+"""What a receiver goes by, whatever is sent."""
+
+_SAID_ELSEWHERE = (*CALLED, *RECEIVED, "english")
+
+
 def layout(transfer: Transfer | None, names: Mapping[str, str]) -> dict[str, str]:
     """What lays a transfer out, by the words for it; ``names`` are those of renamed things."""
     if transfer is None:
         return {}
-
-    def called(*old: str) -> str:
-        return ", ".join(names.get(name, name) for name in old)
-
     return {
-        "messages": called(*transfer.messages),
-        "items": called(*transfer.items),
-        "count": "" if transfer.count is None else str(transfer.count),
-        "count signal": called(transfer.count_signal),
-        "frame number": called(transfer.frame_number),
-        "group": called(transfer.group),
-        "groups signal": called(transfer.groups_signal),
-        "length signal": called(transfer.length_signal),
-        "numbering": "within group" if transfer.numbered_within_group else "through",
-        "fill": "" if transfer.fill is None else str(transfer.fill),
+        part.name.replace("_", " "): _text(getattr(transfer, part.name), names)
+        for part in fields(transfer)
+        if part.name not in _SAID_ELSEWHERE
     }
+
+
+def _text(value: object, names: Mapping[str, str]) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(_text(each, names) for each in value)
+    if isinstance(value, Enum):
+        return str(value.value)
+    return "" if value is None else names.get(str(value), str(value))
 
 
 def follows(pairing: Pairing, old: Transfer | None, new: Transfer | None) -> bool:

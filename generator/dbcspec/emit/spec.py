@@ -229,7 +229,7 @@ def _behaviour(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
             for counter in (message.counter for message in messages)
             if counter
         ],
-        "transfers": list(_transfers(protocol)),
+        "transfers": [list(transfer.given().items()) for transfer in protocol.transfers],
         "requests": [
             [
                 ("signal", request.signal),
@@ -266,21 +266,3 @@ def _acts(protocol: Protocol, repeated: set[str]) -> Iterator[Pairs]:
                 ("kind", acting.kind if acting.reports else None),
                 ("cite", acting.reference or None),
             ]
-
-
-def _transfers(protocol: Protocol) -> Iterator[Pairs]:
-    for transfer in protocol.transfers:
-        yield [
-            ("name", transfer.name),
-            ("english", transfer.english),
-            ("messages", transfer.messages),
-            ("items", transfer.items),
-            ("count", transfer.count),
-            ("count_signal", transfer.count_signal or None),
-            ("frame_number", transfer.frame_number or None),
-            ("group", transfer.group or None),
-            ("groups_signal", transfer.groups_signal or None),
-            ("length_signal", transfer.length_signal or None),
-            ("numbering", "within_group" if transfer.numbered_within_group else None),
-            ("fill", transfer.fill),
-        ]

@@ -5,6 +5,9 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from decimal import Decimal
+
+from typedcan.model.numbers import number
 
 _PLAIN = re.compile(r"[A-Za-z0-9_一-鿿](?:[A-Za-z0-9_./%()一-鿿-]| (?=[^ ]))*")
 _UNPRINTED = re.compile("[\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
@@ -39,6 +42,8 @@ def _value(value: object) -> str:
     if isinstance(value, Mapping):
         inner = ", ".join(f"{key}: {scalar(str(label))}" for key, label in value.items())
         return f"{{{inner}}}"
+    if isinstance(value, Decimal):
+        return number(value)
     return scalar(value) if isinstance(value, str) else str(value)
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 from dbcspec.load.response import Stream, Time
 from typedcan.model.frame_time import frame_bits
-from typedcan.model.protocol import Bus, Message, Protocol, SendType, Transfer
+from typedcan.model.protocol import Bus, Message, Protocol, SendType
+from typedcan.model.transfer import Counted, Transfer
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,23 +56,30 @@ def bus_messages(protocol: Protocol, bus: Bus) -> list[Message]:
 
 
 def frames_of(transfer: Transfer, size: Size) -> int:
-    """How many frames one cycle of a transfer has on each of its identifiers."""
+    """How many frames one cycle of a transfer has on each of its identifiers.
+
+    What the spec fixes counts, else what ``size`` has.
+    """
     if not transfer.frame_number:
         return 1
     items = len(transfer.items)
-    if transfer.count is not None:
-        return -(transfer.count // -items)
-    if not transfer.numbered_within_group:
-        return -(size.items // -items)
-    return sum(-(size.of_group(group) // -items) for group in range(size.groups))
+    if transfer.counts:
+        return sum(-(count // -items) for count in transfer.counts)
+    if transfer.counted is Counted.FRAMES:
+        return transfer.count or size.items
+    count = size.items if transfer.count is None else transfer.count
+    if not transfer.group:
+        return -(count // -items)
+    own = Size(transfer.groups or size.groups, count)
+    return sum(-(own.of_group(group) // -items) for group in range(own.groups))
 
 
 def streams(
     protocol: Protocol, bus: Bus, scenario: Scenario, *, stuffed: bool = True
 ) -> list[Stream]:
     """What the bus carries in a scenario, with the stuff bits of the worst case or none."""
-    counts = {
-        name: frames_of(transfer, scenario.sizes.get(transfer.name, Size()))
+    carried = {
+        name: (transfer, frames_of(transfer, scenario.sizes.get(transfer.name, Size())))
         for transfer in protocol.transfers
         for name in transfer.messages
     }
@@ -86,10 +94,17 @@ def streams(
                     priority=_priority(message),
                     time=Time(bits, bus.bit_rate),
                     period=period,
-                    frames=counts.get(message.name, 1),
+                    frames=_frames_a_period(message, *carried.get(message.name, (None, 1))),
                 )
             )
     return found
+
+
+def _frames_a_period(message: Message, transfer: Transfer | None, frames: int) -> int:
+    """How many frames a message has in its period; a transfer may take several of them."""
+    if transfer is None or not (transfer.period and message.period):
+        return frames
+    return -(frames * message.period // -transfer.period)
 
 
 def _period(message: Message, scenario: Scenario) -> Time | None:

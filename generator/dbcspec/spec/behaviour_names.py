@@ -8,6 +8,12 @@ from dbcspec.errors import Fault
 from dbcspec.spec.rows import Spec
 from typedcan.model.protocol import Message
 
+_IN_TRANSFERS = (
+    *("items", "details", "frame_number", "group"),
+    *("count_signal", "groups_signal", "length_signal"),
+)
+"""The keys of transfers that name signals."""
+
 
 def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:
     """Yield a fault for each name in behaviour.yaml that no message or signal has."""
@@ -23,11 +29,7 @@ def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:
         (behaviour.requests, "answers", names),
         (behaviour.timing, "messages", names),
         (behaviour.transfers, "messages", names),
-        *(
-            (behaviour.transfers, key, signals)
-            for key in ("items", "count_signal", "frame_number", "group", "groups_signal")
-        ),
-        (behaviour.transfers, "length_signal", signals),
+        *((behaviour.transfers, key, signals | in_messages) for key in _IN_TRANSFERS),
     ):
         for row in rows:
             value = getattr(row, key)

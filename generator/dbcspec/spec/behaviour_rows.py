@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import ClassVar
 
 from dbcspec.spec.schema import (
+    DECIMAL,
     INTEGER,
     NAME,
     RANGE,
@@ -17,7 +18,11 @@ from dbcspec.spec.schema import (
     list_of,
     nested,
     one_of,
+    word_of,
 )
+from typedcan.model.transfer import Counted, Ending, Numbering
+from typedcan.model.transfers.registry import KINDS
+from typedcan.model.transfers.text import ENCODINGS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,22 +50,46 @@ class CounterRow(Record):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TransferRow(Record):
-    """A value too long for one frame, and how it is split."""
+    """A value that takes several frames, its kind, and what that kind has to know."""
 
     name: str = key(NAME, "its name", required=True)
     english: str = key(TEXT, "what it carries", default="")
-    messages: tuple[str, ...] = key(list_of(NAME), "messages, in order", required=True)
-    items: tuple[str, ...] = key(list_of(NAME), "item signals, in order", required=True)
-    count: int | None = key(INTEGER, "items in all, where fixed")
-    count_signal: str = key(NAME, "signal that tells how many items", default="")
-    frame_number: str = key(NAME, "signal that numbers the frames from 1", default="")
-    group: str = key(NAME, "signal that tells which group the frame is of", default="")
-    length_signal: str = key(NAME, "signal that tells how many items are valid", default="")
-    groups_signal: str = key(NAME, "signal that tells how many groups", default="")
-    numbering: str = key(
-        one_of("within_group", "through"), "what the frame number counts", default="through"
+    kind: str = key(
+        one_of(*KINDS),
+        "what it is (default: readings_by_group where there is a group, else a text)",
+        default="",
     )
+    messages: tuple[str, ...] = key(list_of(NAME), "messages, in order", required=True)
+    items: tuple[str, ...] = key(list_of(SIGNAL), "item signals, in order", required=True)
+    frame_number: str = key(SIGNAL, "signal that numbers the frames", default="")
+    first_number: int = key(INTEGER, "number of the first frame, 0 or 1", default=1)
+    numbering: Numbering = key(
+        word_of(Numbering), "what frame numbers count", default=Numbering.THROUGH
+    )
+    group: str = key(SIGNAL, "signal that tells which group a frame is of", default="")
+    first_group: int = key(INTEGER, "number of the first group, 0 or 1", default=1)
+    groups: int | None = key(INTEGER, "how many groups, where fixed")
+    groups_signal: str = key(SIGNAL, "signal that tells how many groups", default="")
+    count: int | None = key(INTEGER, "items in all, where fixed")
+    count_signal: str = key(SIGNAL, "signal that tells how many items in all", default="")
+    counted: Counted = key(word_of(Counted), "what the count counts", default=Counted.ITEMS)
+    counts: tuple[int, ...] = key(list_of(INTEGER), "items of each group, where fixed", default=())
+    length: Ending = key(word_of(Ending), "where a text ends", default=Ending.FIXED)
+    length_signal: str = key(SIGNAL, "signal that tells how many items are valid", default="")
     fill: int | None = key(INTEGER, "raw value of unused items")
+    encoding: str = key(
+        one_of(*ENCODINGS),
+        "of a text (default: by the codes of its items, or ascii)",
+        default="",
+    )
+    details: tuple[str, ...] = key(
+        list_of(SIGNAL), "further signals that belong to the value", default=()
+    )
+    period: int | None = key(INTEGER, "ms in which all is sent once (default: of its messages)")
+    timeout: Decimal | None = key(DECIMAL, "periods in which all frames must have come")
+    rounds: int | None = key(INTEGER, "how often in a row the same must come before it counts")
+    table: str = key(NAME, "what tables of it are called (default: its name)", default="")
+    column: str = key(NAME, "what columns of readings are called (default: its name)", default="")
     cite: str = key(TEXT, "where the standard says so", default="")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
 from decimal import Decimal
 from typing import TypeVar
 
@@ -23,6 +24,8 @@ from typedcan.model import protocol as model
 from typedcan.model.acting import usual_start
 from typedcan.model.layout import float_limits, whole_byte
 from typedcan.model.naming import field_name, shared_prefix
+from typedcan.model.transfer import Transfer
+from typedcan.model.transfers.registry import usual_kind
 
 T = TypeVar("T")
 
@@ -259,22 +262,11 @@ class _Resolver:
                 return model.Counter(signal=row.signal, modulus=modulus)
         return None
 
-    def _transfers(self) -> Iterable[model.Transfer]:
+    def _transfers(self) -> Iterable[Transfer]:
         for row in self._spec.behaviour.transfers:
-            yield model.Transfer(
-                name=row.name,
-                english=row.english,
-                messages=row.messages,
-                items=row.items,
-                count=row.count,
-                count_signal=row.count_signal,
-                frame_number=row.frame_number,
-                group=row.group,
-                groups_signal=row.groups_signal,
-                length_signal=row.length_signal,
-                numbered_within_group=row.numbering == "within_group",
-                fill=row.fill,
-            )
+            facts = {part.name: getattr(row, part.name) for part in fields(Transfer)}
+            facts["kind"] = row.kind or usual_kind(group=row.group, frame_number=row.frame_number)
+            yield Transfer(**facts)
 
 
 def _code_labelled(codes: Mapping[int, str], labels: tuple[str, ...]) -> int | None:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
+from enum import Enum
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from dbcspec.errors import Fault, SpecError
@@ -201,6 +202,12 @@ def one_of(*words: str) -> Kind:
         return text
 
     return Kind(f"one of {', '.join(words)}", read, {"enum": list(words)})
+
+
+def word_of(words: type[Enum]) -> Kind:
+    """A value that is one of a few words, read as the member that has it."""
+    kind = one_of(*(member.value for member in words))
+    return Kind(kind.name, lambda node: words(kind.read(node)), kind.schema)
 
 
 def list_of(kind: Kind) -> Kind:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from swapcan.transfer.readings import TABLES
-from typedcan.commands.tool import Tool
+from typedcan.commands.tool import Tool, reading_tables
 
 _LOG_STATUS = "exit status: 0 all is well, 2 the command could not do its work, 3"
 
@@ -44,6 +43,6 @@ TOOL = Tool(
     own=lambda _: PROTOCOL,
     help=HELP,
     examples=_EXAMPLES,
-    tables=TABLES,
+    tables=reading_tables(PROTOCOL),
 )
 """The `swapcan` command line."""

@@ -5,30 +5,36 @@ from __future__ import annotations
 from swapcan.transfer.readings import (
     CELL_VOLTAGES,
     PROBE_TEMPERATURES,
-    CellAssembler,
     CellVoltages,
-    ProbeAssembler,
     ProbeTemperatures,
+    cell_voltages,
+    probe_temperatures,
 )
-from swapcan.transfer.text import PACK_CODE, VIN, PackCode, Vin
-from swapcan.transfer.text_assembly import PackCodeAssembler, VinAssembler
-from typedcan.transfer import collect
-from typedcan.transfer.problem import Problem
+from swapcan.transfer.text import (
+    PACK_CODE,
+    VIN,
+    PackCode,
+    Vin,
+    any_vin,
+    checked_vin,
+    pack_code,
+)
+from typedcan import transfer
+from typedcan.transfer import Problem
 from typedcan.wire.protocol import Protocol
-
-Assembler = VinAssembler | PackCodeAssembler | CellAssembler | ProbeAssembler
 
 Outcome = Vin | PackCode | CellVoltages | ProbeTemperatures | Problem
 """What a message can bring about."""
 
 
-class Transfers(collect.Transfers):
+class Transfers(transfer.Transfers):
     """The assemblers of one node; one thread at a time.
 
     Parameters
     ----------
     protocol
-        Its transfers named vin, pack_code, cell_voltages and probe_temperatures are put together.
+        Its transfers; those of this standard become `Vin`, `PackCode`, `CellVoltages` and
+        `ProbeTemperatures`.
     check_vin
         Whether a VIN must be one after ISO 3779, check digit included.
     """
@@ -37,9 +43,9 @@ class Transfers(collect.Transfers):
         super().__init__(
             protocol,
             {
-                VIN.name: lambda transfer: VinAssembler(check=check_vin, transfer=transfer),
-                PACK_CODE.name: lambda transfer: PackCodeAssembler(transfer=transfer),
-                CELL_VOLTAGES.name: lambda transfer: CellAssembler(transfer=transfer),
-                PROBE_TEMPERATURES.name: lambda transfer: ProbeAssembler(transfer=transfer),
+                VIN.name: checked_vin if check_vin else any_vin,
+                PACK_CODE.name: pack_code,
+                CELL_VOLTAGES.name: cell_voltages,
+                PROBE_TEMPERATURES.name: probe_temperatures,
             },
         )

@@ -12,4 +12,4 @@ from typedcan.logs.protocol import Protocol, known
 def log_protocol(tool: Tool, options: argparse.Namespace) -> Protocol:
     """The protocol that the options choose; see `Tool.protocol`."""
     own = tool.own(options)
-    return protocol_of(dbc_of(options), known(own.model, tool.tables) if own else None)
+    return protocol_of(dbc_of(options), known(own.model) if own else None)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from typedcan.model import protocol as model
+from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
@@ -72,6 +73,15 @@ class Tool:
     def codec(self, options: argparse.Namespace) -> Codec:
         """What encodes and decodes the messages of that protocol."""
         return Codec(self.protocol(options))
+
+
+def reading_tables(protocol: Protocol) -> dict[str, tuple[str, str]]:
+    """By name of a transfer, what the table of its readings and one reading are called."""
+    return {
+        each.name: (each.parts.table, each.parts.column)
+        for each in protocol.transfers
+        if each.parts.transfer.kind == ReadingsByGroup.name
+    }
 
 
 def dbc_of(options: argparse.Namespace) -> Path | None:

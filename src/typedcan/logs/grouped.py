@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-from typedcan.model.protocol import Message, Protocol, Signal, Transfer
+from typedcan.model.protocol import Protocol
+from typedcan.model.transfer import Numbering
+from typedcan.model.transfers.parts import Parts
+from typedcan.model.transfers.readings import ReadingsByGroup
+from typedcan.model.transfers.registry import problems
 
 KEY_BITS = 8
 """Frame numbers have one byte; a key is the CSC above it."""
@@ -53,51 +56,39 @@ class Readings:
         return f"{self.item}_{csc}_{number}"
 
 
-def readings_of(protocol: Protocol, names: Mapping[str, tuple[str, str]]) -> tuple[Readings, ...]:
-    """What the transfers of a protocol carry by groups.
-
-    Parameters
-    ----------
-    names
-        By name of the transfer, those of the table and of one reading; one without has its own.
-    """
-    homes = {signal.name: (message, signal) for message, signal in protocol.signals()}
-    return tuple(
-        _readings(transfer, homes, *names.get(transfer.name, (transfer.name, transfer.name)))
-        for transfer in protocol.transfers
-        if _is_by_group(transfer, homes)
-    )
+def readings_of(protocol: Protocol) -> tuple[Readings, ...]:
+    """What the transfers of a protocol carry by groups."""
+    found = (Parts(transfer, protocol) for transfer in protocol.transfers)
+    return tuple(_readings(parts) for parts in found if _is_by_group(parts))
 
 
-def _is_by_group(transfer: Transfer, homes: Mapping[str, tuple[Message, Signal]]) -> bool:
+def _is_by_group(parts: Parts) -> bool:
     """Whether each group numbers its frames, and another message tells how many there are."""
-    places = (transfer.group, transfer.frame_number)
-    totals = (transfer.groups_signal, transfer.count_signal)
     return (
-        transfer.numbered_within_group
-        and all((*places, *totals))
-        and len(transfer.messages) == 1
-        and len({homes[name][0].name for name in totals}) == 1
-        and all(homes[name][1].length <= KEY_BITS for name in places)
+        parts.transfer.kind == ReadingsByGroup.name
+        and parts.transfer.numbering is Numbering.WITHIN_GROUP
+        and not problems(parts.transfer, parts.protocol)
+        and bool(parts.totals and parts.groups and parts.count)
+        and all(part.signal.length <= KEY_BITS for part in (parts.group, parts.number) if part)
     )
 
 
-def _readings(
-    transfer: Transfer, homes: Mapping[str, tuple[Message, Signal]], name: str, item: str
-) -> Readings:
-    message, group = homes[transfer.group]
+def _readings(parts: Parts) -> Readings:
+    if not (parts.group and parts.number and parts.groups and parts.count):
+        raise LookupError(f"{parts.transfer.name} are no readings by group")
+    group = parts.group.signal
     states = (group.invalid_code, group.abnormal_code)
     return Readings(
-        name=name,
-        item=item,
-        message=message.name,
-        period=(message.period or 0) / 1000,
+        name=parts.table,
+        item=parts.column,
+        message=parts.messages[0].name,
+        period=parts.period or 0,
         csc=group.name,
-        number=transfer.frame_number,
+        number=parts.number.signal.name,
         no_csc=tuple(code for code in states if code is not None),
-        items=transfer.items,
-        unit=homes[transfer.items[0]][1].unit,
-        totals=homes[transfer.count_signal][0].name,
-        groups=transfer.groups_signal,
-        count=transfer.count_signal,
+        items=tuple(part.signal.name for part in parts.items),
+        unit=parts.items[0].signal.unit,
+        totals=parts.totals,
+        groups=parts.groups.signal.name,
+        count=parts.count.signal.name,
     )

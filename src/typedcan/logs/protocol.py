@@ -54,15 +54,8 @@ class Protocol:
         return {name: later for name, later in pairs if name != later}
 
 
-def known(protocol: model.Protocol, names: Mapping[str, tuple[str, str]] | None = None) -> Protocol:
-    """A protocol of which all is known.
-
-    Parameters
-    ----------
-    names
-        What the tables of its transfers and the columns there are called, by name of the transfer;
-        one without is called as it is.
-    """
+def known(protocol: model.Protocol) -> Protocol:
+    """A protocol of which all is known."""
     return replace(
         read(protocol, protocol.name),
         digest=protocol.digest,
@@ -76,7 +69,7 @@ def known(protocol: model.Protocol, names: Mapping[str, tuple[str, str]] | None 
             if message.period and message.send_type is model.SendType.IF_ACTIVE
         ),
         checked={message.name: message for message in protocol.messages},
-        readings=readings_of(protocol, names or {}),
+        readings=readings_of(protocol),
     )
 
 

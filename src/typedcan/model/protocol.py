@@ -20,6 +20,7 @@ from typedcan.model.signal import ByteOrder as ByteOrder
 from typedcan.model.signal import Code as Code
 from typedcan.model.signal import Signal as Signal
 from typedcan.model.signal import ValueTable as ValueTable
+from typedcan.model.transfer import Transfer
 
 LONGEST_CLASSIC = 8
 """Bytes that a frame of classic CAN carries."""
@@ -178,24 +179,6 @@ class Erratum:
     printed: str
     reading: str
     because: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Transfer:
-    """A value split over several frames; names are signal and message names."""
-
-    name: str
-    english: str
-    messages: tuple[str, ...]
-    items: tuple[str, ...]
-    count: int | None = None
-    count_signal: str = ""
-    frame_number: str = ""
-    group: str = ""
-    groups_signal: str = ""
-    length_signal: str = ""
-    numbered_within_group: bool = False
-    fill: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

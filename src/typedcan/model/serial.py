@@ -17,7 +17,7 @@ from typedcan.model.errors import ReadError
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Protocol, ValueTable
 
-FORMAT = 1
+FORMAT = 2
 """Of the JSON; a package with another one is to be generated anew."""
 
 Reader = Callable[[Any], Any]

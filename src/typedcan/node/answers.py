@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, Protocol, TypeVar
 
-from typedcan.transfer.problem import Problem
+from typedcan.transfer import Problem
 from typedcan.wire.message import Message
 
 T = TypeVar("T")

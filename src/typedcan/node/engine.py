@@ -25,7 +25,7 @@ from typedcan.node.request import RequestHearer, Requests
 from typedcan.node.transmit import Sends, Transmitter
 from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.supervise import Supervisor
-from typedcan.transfer.collect import Transfers
+from typedcan.transfer import Transfers
 from typedcan.wire.acting import acting_fields
 from typedcan.wire.clock import Clock
 from typedcan.wire.codec import Codec

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from typedcan.supervise import SupervisionEvent
-from typedcan.transfer.problem import Problem
+from typedcan.transfer import Problem
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 

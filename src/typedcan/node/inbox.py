@@ -11,7 +11,7 @@ from typedcan.node.events import Dispatcher
 from typedcan.supervise import Supervisor
 from typedcan.supervise.events import State
 from typedcan.supervise.snapshot import Snapshot
-from typedcan.transfer.collect import Transfers
+from typedcan.transfer import Transfers
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message

@@ -14,7 +14,7 @@ from typedcan.node.request import Pending
 from typedcan.node.running import Running
 from typedcan.supervise import State, Supervisor
 from typedcan.supervise.snapshot import Snapshot
-from typedcan.transfer.collect import Transfers
+from typedcan.transfer import Transfers
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.codec import Codec
 from typedcan.wire.errors import RequestError

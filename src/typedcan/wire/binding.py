@@ -11,6 +11,7 @@ from typing import Any
 from typedcan.model import protocol as model
 from typedcan.model.kinds import Kind, kind_of
 from typedcan.model.layout import in_bit_order, whole_byte
+from typedcan.model.signal_state import SignalState
 from typedcan.wire.fields import (
     CharacterField,
     Field,
@@ -19,7 +20,6 @@ from typedcan.wire.fields import (
     LabelledField,
     NumberField,
     PhysicalField,
-    SignalState,
 )
 from typedcan.wire.message import Checksum, Counter, Selected
 

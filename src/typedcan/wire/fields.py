@@ -9,24 +9,14 @@ import math
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import Enum, IntEnum
+from enum import IntEnum
 from typing import Any
 
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protocol import Signal
+from typedcan.model.signal_state import SignalState
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.plain import character, integer, real_number, shown, whole_number
-
-
-class SignalState(Enum):
-    """What a signal says instead of a value."""
-
-    INVALID = "Signal Invalid"
-    ABNORMAL = "Abnormal"
-
-    def __str__(self) -> str:
-        return self.value
-
 
 Value = float | int | str | SignalState | None
 """What a field of a message can hold."""

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypeVar
 
 from typedcan.model import protocol as model
 from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
+from typedcan.model.signal_state import SignalState
 from typedcan.wire.fields import (
     CharacterField,
     Field,
@@ -18,7 +19,6 @@ from typedcan.wire.fields import (
     LabelledField,
     NumberField,
     PhysicalField,
-    SignalState,
     Value,
 )
 

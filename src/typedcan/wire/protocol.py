@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from typedcan.model import protocol as model
+from typedcan.model.transfers.parts import Part, Parts
 from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
 from typedcan.wire.message import Message
 
@@ -18,46 +19,83 @@ class FieldRef(NamedTuple):
     field: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Transfer:
-    """A value that takes several frames.
+    """A value that takes several frames, with the classes of its messages.
 
     Parameters
     ----------
-    name, title
-        Its name here and its short English title.
-    messages
-        The messages that carry it.
-    items
-        The fields that hold its parts, in order: those of one frame where there is a
-        ``frame_number``, else those of all messages.
-    count, count_field
-        How many parts there are, or the field that tells.
-    frame_number
-        The field that numbers the frames from 1.
-    group, groups_field
-        The field that names the group that a frame belongs to, counted from 1, and the one that
-        tells how many groups there are.
-    length_field
-        The field that tells how many of the parts count.
-    numbered_within_group
-        Whether the frame numbers begin anew in each group.
-    fill
-        Raw value of parts that are not used, None where there is none.
+    parts
+        What the model says of it.
+    classes
+        By name, the messages that carry it or tell how much there is.
     """
 
-    name: str
-    title: str
-    messages: tuple[type[Message], ...]
-    items: tuple[FieldRef, ...]
-    count: int | None = None
-    count_field: FieldRef | None = None
-    frame_number: FieldRef | None = None
-    group: FieldRef | None = None
-    groups_field: FieldRef | None = None
-    length_field: FieldRef | None = None
-    numbered_within_group: bool = False
-    fill: int | None = None
+    parts: Parts
+    classes: Mapping[str, type[Message]]
+
+    def __repr__(self) -> str:
+        return f"<Transfer {self.name}: {self.parts.transfer.kind}>"
+
+    @property
+    def name(self) -> str:
+        """Its name here."""
+        return self.parts.transfer.name
+
+    @property
+    def title(self) -> str:
+        """Its short English title."""
+        return self.parts.transfer.english
+
+    @property
+    def messages(self) -> tuple[type[Message], ...]:
+        """The messages that carry it, in order."""
+        return tuple(self.classes[message.name] for message in self.parts.messages)
+
+    @property
+    def items(self) -> tuple[FieldRef, ...]:
+        """The fields that hold its parts, in order: of one frame, where frames are numbered."""
+        return tuple(filter(None, map(self._ref, self.parts.items)))
+
+    @property
+    def count(self) -> int | None:
+        """How many parts there are, where that is fixed."""
+        return self.parts.transfer.count
+
+    @property
+    def count_field(self) -> FieldRef | None:
+        """The field that tells how many there are."""
+        return self._ref(self.parts.count)
+
+    @property
+    def frame_number(self) -> FieldRef | None:
+        """The field that numbers the frames."""
+        return self._ref(self.parts.number)
+
+    @property
+    def group(self) -> FieldRef | None:
+        """The field that names the group that a frame belongs to."""
+        return self._ref(self.parts.group)
+
+    @property
+    def groups_field(self) -> FieldRef | None:
+        """The field that tells how many groups there are."""
+        return self._ref(self.parts.groups)
+
+    @property
+    def length_field(self) -> FieldRef | None:
+        """The field that tells how many of the parts count."""
+        return self._ref(self.parts.length)
+
+    @property
+    def fill(self) -> int | None:
+        """Raw value of parts that are not used, None where there is none."""
+        return self.parts.transfer.fill
+
+    def _ref(self, part: Part | None) -> FieldRef | None:
+        if part is None:
+            return None
+        return FieldRef(self.classes[part.message.name], part.signal.python_name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,7 +200,7 @@ def bind(
             for kind in messages
             if kind.PERIOD and kind.MODEL.send_type is model.SendType.IF_ACTIVE
         ),
-        transfers=tuple(_transfer(each, classes, fields) for each in protocol.transfers),
+        transfers=tuple(Transfer(Parts(each, protocol), classes) for each in protocol.transfers),
         requests=tuple(
             Request(
                 field=fields[each.signal],
@@ -172,25 +210,4 @@ def bind(
             )
             for each in protocol.requests
         ),
-    )
-
-
-def _transfer(
-    transfer: model.Transfer,
-    classes: Mapping[str, type[Message]],
-    fields: Mapping[str, FieldRef],
-) -> Transfer:
-    return Transfer(
-        name=transfer.name,
-        title=transfer.english,
-        messages=tuple(classes[name] for name in transfer.messages),
-        items=tuple(fields[name] for name in transfer.items),
-        count=transfer.count,
-        count_field=fields.get(transfer.count_signal),
-        frame_number=fields.get(transfer.frame_number),
-        group=fields.get(transfer.group),
-        groups_field=fields.get(transfer.groups_signal),
-        length_field=fields.get(transfer.length_signal),
-        numbered_within_group=transfer.numbered_within_group,
-        fill=transfer.fill,
     )

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from typedcan.logs.cells.readings import ReadingFrames
 from typedcan.logs.cells.regular import Regular
-from typedcan.logs.cells.shape import Shape, frames_in
 from typedcan.logs.grouped import KEY_BITS
+from typedcan.model.transfers.cycle import frames_in
+from typedcan.model.transfers.shape import Shape
 
 _WINDOW_PERIODS = 1.5
 """Periods that a reading in a cycle may be old."""

@@ -15,7 +15,7 @@ from typedcan.logs.cells.readings import CellsError, frames_of
 from typedcan.logs.cells.stream import Cycles, Layout, Stream
 from typedcan.logs.columns import MessageColumns
 from typedcan.logs.grouped import Readings
-from typedcan.transfer.shape import Totals
+from typedcan.model.transfers.shape import Totals
 
 Channel = int | str | None
 

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from typedcan.logs.cells.assembly import Assembly, Complete, CycleCounts
 from typedcan.logs.cells.readings import ReadingFrames, no_frames
-from typedcan.logs.cells.shape import Shape, TotalsShape, frames_in, seen_shape
+from typedcan.logs.cells.shape import seen_shape
 from typedcan.logs.grouped import KEY_BITS
-from typedcan.transfer.shape import Totals
+from typedcan.model.transfers.cycle import frames_in
+from typedcan.model.transfers.shape import Shape, Totals, TotalsShape
 
 _WATCHED = 2.0
 """Seconds that are watched for what a cycle has."""

@@ -19,7 +19,7 @@ from swapcan.conform.rules.texts.pack_code_parts import (
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.transfer.text import PACK_CODE
-from typedcan.transfer.layout import characters
+from typedcan.transfer import characters
 
 _IS_WRONG = ~np.isin(np.arange(256), [ord(letter) for letter in characters(PACK_CODE)])
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from swapcan.conform.chunk import Chunk
 from swapcan.conform.series import Series, latest
 from swapcan.transfer.text import PACK_CODE
-from typedcan.transfer.layout import text_slots
+from typedcan.transfer import text_slots
 from typedcan.wire.message import Message
 
 ROOM = len(PACK_CODE.items)

@@ -8,7 +8,7 @@ from swapcan.conform.rule import Rule, Severity
 from swapcan.conform.rules.texts.vin_letters_watch import VinLettersWatcher
 from swapcan.conform.text import Text
 from swapcan.transfer.text import VIN
-from typedcan.transfer.layout import characters
+from typedcan.transfer import characters
 
 _ALLOWED = {ord(letter) for letter in characters(VIN)}
 

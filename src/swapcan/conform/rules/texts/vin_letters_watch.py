@@ -14,7 +14,7 @@ from swapcan.conform.rule import Watcher
 from swapcan.conform.series import Series
 from swapcan.conform.text import Text
 from swapcan.transfer.text import VIN
-from typedcan.transfer.layout import text_slots
+from typedcan.transfer import text_slots
 
 _SLOTS = text_slots(VIN)
 _NUMBER = VIN.frame_number.field if VIN.frame_number else ""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from swapcan.conform.chunk import Chunk
 from swapcan.transfer.text import VIN
-from typedcan.transfer.layout import text_slots
+from typedcan.transfer import text_slots
 
 NUMBERS = tuple(slot.number for slot in text_slots(VIN))
 """The frame numbers of a set, in their order."""

@@ -1,0 +1,192 @@
+"""Transfers put together from typed messages, and all those of a node behind one door."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from operator import attrgetter
+from types import MappingProxyType
+from typing import Any, Generic, TypeVar
+
+from typedcan.model.transfers.blocks import Blocks
+from typedcan.model.transfers.kind import Problem
+from typedcan.model.transfers.parts import Part
+from typedcan.model.transfers.reading_rules import Readings
+from typedcan.model.transfers.registry import KINDS, problems
+from typedcan.model.transfers.text import Text
+from typedcan.wire.errors import TransferError
+from typedcan.wire.message import CharacterField, Message
+from typedcan.wire.protocol import Protocol, Transfer
+
+Value = Text | Readings | Blocks
+"""What a transfer of one of the kinds is when it is complete."""
+
+ResultT = TypeVar("ResultT")
+
+Make = Callable[[Any], ResultT | Problem]
+"""Makes a result, or a problem, of a value of the transfer's kind."""
+
+_Read = Callable[[Message], tuple[Any, ...]]
+
+
+class Assembler(Generic[ResultT]):
+    """Puts one transfer together; one thread at a time.
+
+    Parameters
+    ----------
+    transfer
+        What the protocol says of it; raises `TransferError` where it does not fit its kind.
+    make
+        What becomes of a value; nothing else if none is given.
+    timeout
+        Seconds in which all frames must have come, or that a reading in a result may be old; None:
+        as the protocol has it.
+    rounds
+        How often in a row the same must come before it counts; None: as the protocol has it.
+    """
+
+    def __init__(
+        self,
+        transfer: Transfer,
+        make: Make[ResultT] | None = None,
+        *,
+        timeout: float | None = None,
+        rounds: int | None = None,
+    ) -> None:
+        wrong = unfit(transfer)
+        if wrong:
+            raise TransferError(transfer.name, wrong)
+        self.transfer = transfer
+        self._make = make
+        self._rules = KINDS[transfer.parts.transfer.kind].rules(transfer.parts, timeout, rounds)
+        self._readers: dict[type[Message], tuple[str, _Read]] = {}
+        for name, parts in self._rules.wanted.items():
+            message = transfer.classes[name]
+            self._readers[message] = (name, _reader(message, parts))
+
+    @property
+    def messages(self) -> tuple[type[Message], ...]:
+        """Those that say something about the transfer."""
+        return tuple(self._readers)
+
+    @property
+    def deadline(self) -> float:
+        """When `expire` has something to do if no frame arrives; `math.inf` for never."""
+        return self._rules.deadline
+
+    @property
+    def duplicates(self) -> int:
+        """Frames that came again before the set was complete."""
+        return self._rules.duplicates
+
+    def take(self, message: Message, at: float) -> tuple[ResultT | Problem, ...]:
+        """What a message brings about: a result, problems, or neither.
+
+        Messages of other transfers bring nothing about. ``at`` is the time in seconds.
+        """
+        if type(message) not in self._readers:
+            return ()
+        name, read = self._readers[type(message)]
+        outcomes = self._rules.take(name, read(message), at)
+        if not outcomes or self._make is None:
+            return outcomes
+        make = self._make
+        return tuple(each if isinstance(each, Problem) else make(each) for each in outcomes)
+
+    def expire(self, now: float) -> tuple[Problem, ...]:
+        """What is overdue at that time."""
+        return self._rules.expire(now)
+
+    def missing(self) -> str:
+        """What still lacks for a result."""
+        return self._rules.missing()
+
+    def reset(self) -> None:
+        """Forget all that was received; how much there is stays."""
+        self._rules.reset()
+
+
+class Transfers:
+    """The assemblers of one node; one thread at a time.
+
+    Parameters
+    ----------
+    protocol
+        Whose transfers. One that does not fit its kind is passed over; `missing` says why.
+    makers
+        What becomes of the values of some, by the names of the transfers; the others are told as
+        the values of their kinds.
+    """
+
+    def __init__(self, protocol: Protocol, makers: Mapping[str, Make[Any]] | None = None) -> None:
+        self._makers = makers or {}
+        self._protocol = protocol
+        self._unfit = {each.name: unfit(each) for each in protocol.transfers}
+        self.assemblers: Mapping[str, Assembler[Any]] = MappingProxyType(
+            {name: self.assembler(name) for name, wrong in self._unfit.items() if not wrong}
+        )
+        """The assemblers by the name of their transfer."""
+        self._routes: dict[type[Message], tuple[Assembler[Any], ...]] = {}
+        for assembler in self.assemblers.values():
+            for message in assembler.messages:
+                self._routes[message] = (*self._routes.get(message, ()), assembler)
+
+    @property
+    def messages(self) -> frozenset[type[Message]]:
+        """Those that say something about a transfer."""
+        return frozenset(self._routes)
+
+    @property
+    def next_deadline(self) -> float:
+        """When `expire` has something to do if nothing arrives; `math.inf` for never."""
+        deadlines = (assembler.deadline for assembler in self.assemblers.values())
+        return min(deadlines, default=math.inf)
+
+    def assembler(self, name: str) -> Assembler[Any]:
+        """Another assembler of the transfer of that name, which has seen nothing yet.
+
+        Raises `LookupError` for a name that there is not, and `TransferError`.
+        """
+        return Assembler(self._protocol.transfer(name), self._makers.get(name))
+
+    def take(self, message: Message, at: float) -> tuple[Any, ...]:
+        """What a message brings about: results, problems, or neither; any message will do.
+
+        ``at`` is the time in seconds.
+        """
+        outcomes: tuple[Any, ...] = ()
+        for assembler in self._routes.get(type(message), ()):
+            outcomes += assembler.take(message, at)
+        return outcomes
+
+    def expire(self, now: float) -> tuple[Problem, ...]:
+        """What is overdue at that time, in all transfers."""
+        return tuple(
+            problem for assembler in self.assemblers.values() for problem in assembler.expire(now)
+        )
+
+    def missing(self, name: str) -> str:
+        """What the transfer of that name still lacks for a result; raises `LookupError`."""
+        if self._unfit.get(name):
+            return self._unfit[name]
+        return self.assemblers[name].missing()
+
+
+def unfit(transfer: Transfer) -> str:
+    """Why a transfer cannot be put together; empty where it can."""
+    found = problems(transfer.parts.transfer, transfer.parts.protocol)
+    return "; ".join(f"{problem.key}: {problem.text}" for problem in found)
+
+
+def _reader(message: type[Message], parts: tuple[Part, ...]) -> _Read:
+    """What takes the values of fields: numbers, states, and of characters their codes."""
+    names = [part.signal.python_name for part in parts]
+    get: Callable[[Message], Any] = attrgetter(*names)
+    read: _Read = get if len(names) > 1 else lambda message: (get(message),)
+    if not any(isinstance(message.FIELDS[name], CharacterField) for name in names):
+        return read
+    return lambda message: tuple(map(_code, read(message)))
+
+
+def _code(value: Any) -> Any:
+    return ord(value) if isinstance(value, str) else value
