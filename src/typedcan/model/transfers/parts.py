@@ -102,10 +102,8 @@ class Parts:
 
     @property
     def table(self) -> str:
-        """What tables of logs are called: never as those of a message, in no file system."""
-        name = self.transfer.table or self.transfer.name
-        taken = {message.name.casefold() for message in self.protocol.messages}
-        return f"{name}_complete" if name.casefold() in taken else name
+        """What tables of logs are called."""
+        return self.transfer.table or self.transfer.name
 
     @property
     def column(self) -> str:
