@@ -34,11 +34,11 @@ from swapcan.messages import (
     ThermalMode,
 )
 from swapcan.simulate.chg import Chg
-from swapcan.simulate.faults import planned_fault
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.simulation import Simulation
+from swapcan.simulate.standard_faults import planned_fault
 from swapcan.simulate.vcu import Vcu
 
 

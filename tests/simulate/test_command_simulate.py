@@ -12,7 +12,7 @@ from simulate.commands import as_arguments, bus_options, started
 
 from swapcan import Link, cli
 from swapcan.messages import B2V_ST1, V2B_CMD, B2C_Charger, C2B_ACStatus, HvCommand
-from swapcan.simulate.faults import FAULTS
+from swapcan.simulate.standard_faults import FAULTS
 
 COMMAND = ("-m", "swapcan", "simulate")
 YES = "--yes-drive-the-bus"

@@ -8,8 +8,9 @@ import pytest
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_ST1
-from swapcan.simulate.faults import FAULTS, TRANSMISSION_FAULTS, able_nodes, planned_fault
+from swapcan.simulate.faults import TRANSMISSION_FAULTS
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, plan_of, planned_step
+from swapcan.simulate.standard_faults import FAULTS, able_nodes, planned_fault
 from swapcan.simulate.times import PlanError, seconds_of
 
 

@@ -19,9 +19,10 @@ from swapcan.messages import (
     BmsState,
     C2B_ACStatus,
 )
-from swapcan.simulate.faults import FAULTS, TRANSMISSION_FAULTS, able_nodes, planned_fault
+from swapcan.simulate.faults import TRANSMISSION_FAULTS
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.simulation import Simulation
+from swapcan.simulate.standard_faults import FAULTS, able_nodes, planned_fault
 from typedcan.supervise import SignalChanged, State, StateChanged
 from typedcan.wire.message import Message
 

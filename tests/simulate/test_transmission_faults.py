@@ -14,9 +14,9 @@ from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.node import Node
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, can_have
-from swapcan.simulate.faulty_bus import FaultyBus
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from swapcan.simulate.standard_faults import FaultyBus
 from swapcan.simulate.world import World
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import SimulatedClock

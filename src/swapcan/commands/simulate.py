@@ -12,9 +12,9 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
-from swapcan.simulate.faults import FAULTS, able_nodes, planned_fault
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.simulate.simulation import check
+from swapcan.simulate.standard_faults import FAULTS, able_nodes, planned_fault
 from swapcan.simulate.times import PlanError
 from typedcan.commands.bus_options import (
     add_bus_options,

@@ -19,14 +19,14 @@ from swapcan.simulate.battery import Battery, Layout
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.chg import Chg
-from swapcan.simulate.faults import FAULTS, FaultKind, PlannedFault, planned_fault
-from swapcan.simulate.faulty_bus import FaultyBus
+from swapcan.simulate.faults import FaultKind, PlannedFault
 from swapcan.simulate.line import Line
 from swapcan.simulate.participant import Participant, UnknownFaultError
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of, planned_step
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.simulation import Simulation
+from swapcan.simulate.standard_faults import FAULTS, FaultyBus, planned_fault
 from swapcan.simulate.times import PlanError
 from swapcan.simulate.tms import Tms
 from swapcan.simulate.vcu import Vcu

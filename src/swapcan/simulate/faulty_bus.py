@@ -11,11 +11,10 @@ from typing import Any
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from swapcan.simulate.times import PlanError
-from swapcan.wire import database
 from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.database import database
 from typedcan.wire.message import Message
 from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from typedcan.wire.protocol import Protocol
@@ -43,18 +42,18 @@ class FaultyBus(can.BusABC):
     ----------
     bus
         The bus to send on.
-    clock
-        What a late frame waits by.
     protocol, algorithms
         As `Codec` has them; needed to make checksums right again.
+    clock
+        What a late frame waits by.
     """
 
     def __init__(
         self,
         bus: can.BusABC,
+        protocol: Protocol,
         *,
         clock: Clock | None = None,
-        protocol: Protocol = PROTOCOL,
         algorithms: Mapping[str, Algorithm] | None = None,
     ) -> None:
         self._bus = bus

@@ -16,9 +16,9 @@ from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.chg import Chg
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
-from swapcan.simulate.faulty_bus import FaultyBus
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from swapcan.simulate.standard_faults import FaultyBus
 from swapcan.simulate.times import PlanError
 from swapcan.simulate.tms import Tms
 from swapcan.simulate.vcu import VIN, Vcu

@@ -21,8 +21,8 @@ from swapcan.conform.registry import rule_of
 from swapcan.conform.rules.charging import charge_stops_on_fault
 from swapcan.conform.rules.voltage import hv_off_in_time
 from swapcan.conform.text import Text
-from swapcan.simulate.faults import planned_fault
 from swapcan.simulate.plan import plan_of
+from swapcan.simulate.standard_faults import planned_fault
 
 SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
     {
