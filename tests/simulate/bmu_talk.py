@@ -17,7 +17,7 @@ from swapcan.messages import (
     RelayState,
 )
 from swapcan.simulate.bmu import Bmu
-from swapcan.simulate.world import World
+from swapcan.simulate.line_world import World
 from typedcan.wire.message import SignalState
 
 Pack = tuple[Bmu, Outside, World]

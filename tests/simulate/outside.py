@@ -9,9 +9,8 @@ from typing import TypeVar
 import can
 
 from swapcan import Fault, Link, Received
-from swapcan.simulate.participant import Participant
+from swapcan.simulate.line_world import Participant, World
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from swapcan.simulate.world import World
 from swapcan.wire import Receiver
 from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message

@@ -25,8 +25,8 @@ from swapcan.messages import (
 )
 from swapcan.simulate.battery import Battery
 from swapcan.simulate.bmu import Bmu
+from swapcan.simulate.line_world import World
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from swapcan.simulate.world import World
 from typedcan.wire.clock import SimulatedClock
 
 

@@ -18,7 +18,7 @@ from swapcan.messages import (
     ChargerTimeout,
 )
 from swapcan.simulate.chg import Chg
-from swapcan.simulate.world import World
+from swapcan.simulate.line_world import World
 
 GO = B2C_Charger(voltage_set=80.0, current_set=100.0, charge_control=ChargeControl.START_TO_CHARGE)
 STOP = replace(GO, charge_control=ChargeControl.NORMAL_STOP_TO_CHARGE)

@@ -16,8 +16,8 @@ from swapcan.messages import (
     ThermalMode,
     WarningLevel,
 )
+from swapcan.simulate.line_world import World
 from swapcan.simulate.tms import Tms
-from swapcan.simulate.world import World
 
 COOL = BMS_TMS_0(
     reqst_set_tms_sts=ThermalMode.COOLING,

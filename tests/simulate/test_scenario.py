@@ -12,11 +12,11 @@ from simulate.wire_log import WireLog
 from swapcan.messages import BmsState, ChargeState, HvCommand
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.chg import Chg
+from swapcan.simulate.line_world import World
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.vcu import Vcu
-from swapcan.simulate.world import World
 from typedcan.wire.clock import SimulatedClock
 
 PLAN = "hv_on@0.5s, ask@1s, drive@2s+8s, charge@14s+6s, hv_off@21s"

@@ -9,7 +9,7 @@ from simulate.outside import Outside, alone
 
 from swapcan.messages import BSU_BMS_0, ConnectorState, LockState, WarningLevel
 from swapcan.simulate.bsu import Bsu
-from swapcan.simulate.world import World
+from swapcan.simulate.line_world import World
 
 Controller = tuple[Bsu, Outside, World]
 

@@ -29,8 +29,8 @@ from swapcan.messages import (
     VinRequest,
 )
 from swapcan.simulate.driving import Motion, Power, shuttle
+from swapcan.simulate.line_world import World
 from swapcan.simulate.vcu import VIN, Vcu
-from swapcan.simulate.world import World
 from swapcan.transfer import is_valid_vin, split_pack_code
 
 Truck = tuple[Vcu, Outside, World]

@@ -13,6 +13,7 @@ from uuid import uuid4
 import can
 import pytest
 
+from swapcan.simulate import line_world
 from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.participant import Participant, UnknownFaultError
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
@@ -120,7 +121,7 @@ def test_participants_of_one_world_share_a_line(
 ) -> None:
     tms = Tms(stack.enter_context(SimulatedBus(wire)), clock=clock)
     bsu = Bsu(stack.enter_context(SimulatedBus(wire)), clock=clock)
-    world = World(tms, bsu, clock=clock)
+    world = line_world.World(tms, bsu, clock=clock)
     assert tms.line is bsu.line is world.line
     assert (world.line.load, world.line.charge) == (None, None)
 

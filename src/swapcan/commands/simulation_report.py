@@ -24,11 +24,11 @@ import json
 from functools import partial
 from typing import Any
 
-from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
 from typedcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
+from typedcan.node.node import Node
 from typedcan.node.request import Pending
 from typedcan.shell.console import say
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged

@@ -21,7 +21,8 @@ from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.chg import Chg
 from swapcan.simulate.faults import FaultKind, PlannedFault
 from swapcan.simulate.line import Line
-from swapcan.simulate.participant import Participant, UnknownFaultError
+from swapcan.simulate.line_world import Participant, World
+from swapcan.simulate.participant import UnknownFaultError
 from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of, planned_step
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
@@ -30,7 +31,6 @@ from swapcan.simulate.standard_faults import FAULTS, FaultyBus, planned_fault
 from swapcan.simulate.times import PlanError
 from swapcan.simulate.tms import Tms
 from swapcan.simulate.vcu import Vcu
-from swapcan.simulate.world import World
 
 __all__ = [
     "DEFAULT_PLAN",

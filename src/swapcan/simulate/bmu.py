@@ -40,6 +40,7 @@ from swapcan.node import Node
 from swapcan.simulate.alarms import HIGHEST_LEVEL
 from swapcan.simulate.battery import Battery
 from swapcan.simulate.high_voltage import Command
+from swapcan.simulate.line_world import Participant
 from swapcan.simulate.pack import (
     PRECHARGE_FAILURE,
     STUCK_RELAY,
@@ -47,7 +48,6 @@ from swapcan.simulate.pack import (
     Pack,
     Surroundings,
 )
-from swapcan.simulate.participant import Participant
 from swapcan.simulate.sensors import (
     LOW_INSULATION,
     OVER_TEMPERATURE,

@@ -10,7 +10,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import BSU_BMS_0, ConnectorState, LockState, WarningLevel
 from swapcan.node import Node
-from swapcan.simulate.participant import Participant
+from swapcan.simulate.line_world import Participant
 from typedcan.wire.clock import Clock, SystemClock
 
 _AMBIENT = 31.0

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from swapcan.node import Node
-from swapcan.simulate.line import Line
 from typedcan.model.errors import TypedcanError
+from typedcan.node.node import Node
 
 
 class UnknownFaultError(TypedcanError, LookupError):
@@ -19,7 +18,7 @@ class Participant:
     A subclass hands over its nodes and says in `step` what time and the last messages change;
     the nodes do the talking.
 
-    Class attributes: ``name`` of the node in the standard, and ``faults``, the names of the
+    Class attributes: ``name`` of the node in the protocol, and ``faults``, the names of the
     physical faults that it knows.
 
     Parameters
@@ -33,7 +32,6 @@ class Participant:
 
     def __init__(self, *nodes: Node) -> None:
         self.nodes: tuple[Node, ...] = nodes
-        self.line: Line | None = None
         self._active: set[str] = set()
 
     @property

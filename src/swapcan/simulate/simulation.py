@@ -16,13 +16,13 @@ from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.bsu import Bsu
 from swapcan.simulate.chg import Chg
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
+from swapcan.simulate.line_world import World
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.standard_faults import FaultyBus
 from swapcan.simulate.times import PlanError
 from swapcan.simulate.tms import Tms
 from swapcan.simulate.vcu import VIN, Vcu
-from swapcan.simulate.world import World
 from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 
 _MASK = 0x1FFF_FFFF

@@ -17,7 +17,7 @@ from swapcan.messages import (
     WarningLevel,
 )
 from swapcan.node import Node
-from swapcan.simulate.participant import Participant
+from swapcan.simulate.line_world import Participant
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received

@@ -31,7 +31,7 @@ from swapcan.messages import (
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
 from swapcan.simulate.driving import Motion, Power, Profile, Trip, shuttle
-from swapcan.simulate.participant import Participant
+from swapcan.simulate.line_world import Participant
 from swapcan.transfer import PackCode, split_vin
 from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged

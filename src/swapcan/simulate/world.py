@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Self
 
-from swapcan.simulate.line import Line
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
 from typedcan.model.errors import one_line
@@ -45,8 +44,7 @@ class World:
     Parameters
     ----------
     participants
-        Who is there; they share a high-voltage `Line`. It carries what those of them give and
-        draw that set its values.
+        Who is there.
     clock
         The clock of all their nodes; the system's where none is given.
     wires
@@ -61,7 +59,6 @@ class World:
     ) -> None:
         self.participants = participants
         self.clock = clock or SystemClock()
-        self.line = Line()
         self._nodes = [node for participant in participants for node in participant.nodes]
         self._due = [-math.inf] * len(self._nodes)
         self._heard = [-1] * len(self._nodes)  # frames that were carried at a node's last turn
@@ -76,8 +73,6 @@ class World:
         self._thread: threading.Thread | None = None
         self._failure: BaseException | None = None
         self._runs_in: int | None = None  # the thread that is in `run`
-        for participant in participants:
-            participant.line = self.line
 
     @property
     def elapsed(self) -> float:
