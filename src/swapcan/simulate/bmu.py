@@ -37,6 +37,7 @@ from swapcan.messages import (
     WarningLevel,
 )
 from swapcan.node import Node
+from swapcan.simulate import status
 from swapcan.simulate.alarms import HIGHEST_LEVEL
 from swapcan.simulate.battery import Battery
 from swapcan.simulate.high_voltage import Command
@@ -46,6 +47,7 @@ from swapcan.simulate.pack import (
     STUCK_RELAY,
     WELDED_RELAY,
     Pack,
+    PackStatus,
     Surroundings,
 )
 from swapcan.simulate.sensors import (
@@ -54,7 +56,6 @@ from swapcan.simulate.sensors import (
     OVER_VOLTAGE_CELL,
     SENSOR_FAILURE,
 )
-from swapcan.simulate.status import PackStatus, battery_info
 from swapcan.transfer import Vin, split_pack_code
 from typedcan.supervise import State
 from typedcan.wire.clock import Clock, SystemClock
@@ -70,18 +71,18 @@ _FRESH = 0.25  # s, five periods of V2B_CMD
 _ASK_AGAIN = {True: 1.0, False: 5.0}  # s between two B2V_RQ, by whether high voltage is to go
 
 _MAKERS: Mapping[type[Message], Callable[[PackStatus], Iterable[Message]]] = {
-    B2V_ST0: PackStatus.st0,
-    B2V_ST1: PackStatus.st1,
-    B2V_ST2: PackStatus.st2,
-    B2V_ST3: PackStatus.st3,
-    B2V_ST4: PackStatus.st4,
-    B2V_ST5: PackStatus.st5,
-    B2V_ST6: PackStatus.st6,
-    B2V_Ucell: PackStatus.cell_voltages,
-    B2V_Temp: PackStatus.probe_temperatures,
-    B2V_ElecEnergy: PackStatus.energy,
-    B2C_Charger: PackStatus.charger,
-    BMS_TMS_0: PackStatus.cooling_unit,
+    B2V_ST0: status.st0,
+    B2V_ST1: status.st1,
+    B2V_ST2: status.st2,
+    B2V_ST3: status.st3,
+    B2V_ST4: status.st4,
+    B2V_ST5: status.st5,
+    B2V_ST6: status.st6,
+    B2V_Ucell: status.cell_voltages,
+    B2V_Temp: status.probe_temperatures,
+    B2V_ElecEnergy: status.energy,
+    B2C_Charger: status.charger,
+    BMS_TMS_0: status.cooling_unit,
 }
 
 _COMMANDS = {HvCommand.HV_ON: Command.ON, HvCommand.HV_OFF: Command.OFF}
@@ -181,7 +182,7 @@ class Bmu(Participant):
         for kind, make in _MAKERS.items():
             node = self.charger_node if kind is B2C_Charger else self.node
             node.supply(kind, partial(self._make, make))
-        self.node.provide(*battery_info(self.pack.battery.layout))
+        self.node.provide(*status.battery_info(self.pack.battery.layout))
         self.node.provide(*split_pack_code(PACK_CODE, Manufacturer.CATL))
 
     def _make(self, make: Callable[[PackStatus], Iterable[Message]]) -> Iterable[Message]:

@@ -6,16 +6,15 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from swapcan.messages import C2B_ACStatus, ThermalMode
+from swapcan.messages import BmsState, C2B_ACStatus, ThermalMode
 from swapcan.simulate.alarms import HIGHEST_LEVEL, OPENS, WELDS, Alarms, Faults
 from swapcan.simulate.battery import Battery
 from swapcan.simulate.bus_bar import BusBar
 from swapcan.simulate.charge_path import ChargePath
-from swapcan.simulate.charging import Charging
+from swapcan.simulate.charging import ChargeStatus, Charging
 from swapcan.simulate.high_voltage import Command, Demand, HighVoltage
 from swapcan.simulate.relays import Relay, Relays
 from swapcan.simulate.sensors import Measurement, Sensors
-from swapcan.simulate.status import PackStatus
 from swapcan.simulate.thermal import next_mode
 from swapcan.simulate.traction import Traction
 
@@ -68,6 +67,44 @@ class Surroundings:
     coolant: float | None = None
     cooling_failed: bool = False
     faults: Collection[str] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PackStatus:
+    """All that the messages of one cycle are made of, so that they agree.
+
+    Parameters
+    ----------
+    measured
+        By the sensors.
+    bus_bar
+        Voltage behind the main relays, in V.
+    closed
+        The relays whose contacts are closed.
+    state
+        Of the high voltage.
+    faults, charge, thermal
+        Alarms, charging, and the mode asked of the cooling unit.
+    balancing
+        Whether cells are being balanced.
+    charged_now
+        kWh of this charge.
+    """
+
+    measured: Measurement
+    bus_bar: float
+    closed: frozenset[Relay]
+    state: BmsState
+    faults: Faults
+    charge: ChargeStatus
+    thermal: ThermalMode
+    balancing: bool
+    charged_now: float
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether there is high voltage."""
+        return self.state is BmsState.HV_CLOSED
 
 
 class Pack:
