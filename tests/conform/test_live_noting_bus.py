@@ -8,7 +8,9 @@ import can
 import pytest
 
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.messages import V2B_CMD
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from swapcan.wire import Codec
 from typedcan.wire.clock import SimulatedClock, SystemClock
 
 
@@ -34,7 +36,7 @@ def frame(number: int, second: float = 0.0) -> can.Message:
 def noted(*frames: can.Message, clock: SimulatedClock | SystemClock) -> list[can.Message]:
     """What is noted of frames that arrive."""
     found: list[can.Message] = []
-    with Given(*frames) as bus, NotingBus(bus, found.append, clock=clock) as noting:
+    with Given(*frames) as bus, NotingBus(bus, Codec(), found.append, clock=clock) as noting:
         while noting.recv(0):
             pass
     return found
@@ -62,7 +64,7 @@ def test_what_is_sent_has_the_time_that_the_adapter_would_give_it() -> None:
     # The adapter's clock is 0.4 s behind, and the second frame waited 10 ms to be read.
     with (
         Given(frame(1, 9.6), frame(2, 9.59)) as bus,
-        NotingBus(bus, found.append, clock=clock) as noting,
+        NotingBus(bus, Codec(), found.append, clock=clock) as noting,
     ):
         assert noting.recv(0)
         assert noting.recv(0)
@@ -75,7 +77,7 @@ def test_what_is_sent_has_the_time_that_the_adapter_would_give_it() -> None:
 def test_frames_of_both_directions_are_on_one_channel_with_their_direction() -> None:
     found: list[can.Message] = []
     with Given(frame(1, 10.0)) as bus:
-        with NotingBus(bus, found.append, clock=SimulatedClock(10.0)) as noting:
+        with NotingBus(bus, Codec(), found.append, clock=SimulatedClock(10.0)) as noting:
             received = noting.recv(0)
             noting.send(frame(2))
         assert received
@@ -99,7 +101,7 @@ def test_who_sends_what_is_played_is_an_intruder_and_the_own_echo_is_not(
 ) -> None:
     one, two = wire
     clock = SimulatedClock()
-    with NotingBus(one, lambda _: None, clock=clock, played=[0x1802F3D0]) as noting:
+    with NotingBus(one, Codec(), lambda _: None, clock=clock, played=[V2B_CMD]) as noting:
         own = can.Message(arbitration_id=0x1802F3D0, data=b"\x01")
         noting.send(own)
         two.send(own)  # as an interface does that gives back what was sent
@@ -112,7 +114,7 @@ def test_who_sends_what_is_played_is_an_intruder_and_the_own_echo_is_not(
 
 def test_the_lent_bus_stays_open(wire: tuple[SimulatedBus, SimulatedBus]) -> None:
     one, two = wire
-    with NotingBus(one, lambda _: None, clock=SimulatedClock()):
+    with NotingBus(one, Codec(), lambda _: None, clock=SimulatedClock()):
         pass
     one.send(frame(1))
     assert two.recv(0)

@@ -22,6 +22,7 @@ from swapcan.messages import (
     HvRequest,
     ThermalMode,
 )
+from swapcan.wire import Codec
 from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message
 
@@ -52,7 +53,7 @@ Both = tuple[Wire, NotingBus]
 @pytest.fixture
 def both() -> Iterator[Both]:
     """A wire, and the bus that notes."""
-    with Wire() as wire, NotingBus(wire, lambda _: None, clock=SimulatedClock()) as bus:
+    with Wire() as wire, NotingBus(wire, Codec(), lambda _: None, clock=SimulatedClock()) as bus:
         yield wire, bus
 
 
@@ -205,7 +206,7 @@ def test_what_sends_the_safe_codes_is_not_held_up_by_the_record_which_has_them_l
         threads.append(threading.current_thread())
 
     clock = SimulatedClock(10.0)
-    with Wire() as wire, NotingBus(wire, note, clock=clock) as bus:
+    with Wire() as wire, NotingBus(wire, Codec(), note, clock=clock) as bus:
         bus.send(frame(ON, 0))
         clock.advance_to(11.0)
         other = threading.Thread(target=bus.send_safe_codes)
@@ -225,10 +226,10 @@ def test_the_last_reports_of_others_count_from_the_last_code_that_acts() -> None
         def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
             return can.Message(arbitration_id=0x123, is_extended_id=False), False
 
-    with Talking() as wire, NotingBus(wire, lambda _: None, clock=SimulatedClock()) as bus:
+    with Talking() as wire, NotingBus(wire, Codec(), lambda _: None, clock=SimulatedClock()) as bus:
         bus.recv(0)
         bus.send(frame(OFF, 0))
-        assert set(bus.latest) == {0x123}
+        assert set(bus.latest) == {(0x123, False)}
         bus.send(frame(ON, 1))
         assert bus.latest == {}
         bus.recv(0)
@@ -236,7 +237,7 @@ def test_the_last_reports_of_others_count_from_the_last_code_that_acts() -> None
         assert bus.latest == {}
         bus.recv(0)
         bus.send(frame(OFF, 3))
-        assert set(bus.latest) == {0x123}
+        assert set(bus.latest) == {(0x123, False)}
 
 
 @pytest.mark.parametrize("error", [ValueError("full"), KeyboardInterrupt(), SystemExit(0)])
@@ -248,7 +249,7 @@ def test_a_recorder_that_raises_holds_nobody_up_and_is_told_no_more(error: BaseE
         raise error
 
     clock = SimulatedClock()
-    with Wire() as wire, NotingBus(wire, note, clock=clock) as bus:
+    with Wire() as wire, NotingBus(wire, Codec(), note, clock=clock) as bus:
         for second in range(5):
             clock.advance_to(float(second))
             bus.send(frame(ON, second))
@@ -268,7 +269,7 @@ def test_trouble_lasts_until_the_same_direction_works_again() -> None:
             return None, False
 
     clock = SimulatedClock()
-    with Half() as wire, NotingBus(wire, lambda _: None, clock=clock) as bus:
+    with Half() as wire, NotingBus(wire, Codec(), lambda _: None, clock=clock) as bus:
 
         def refuse(_: can.Message) -> None:
             if troubled["send"]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
@@ -22,6 +22,7 @@ from swapcan.conform.live.stage import Left, Stage
 from swapcan.drive import driving
 from swapcan.drive.driving import Driving
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.drive.reports import departure
 from swapcan.messages import (
     BMS_TMS_0,
     V2B_CMD,
@@ -34,12 +35,14 @@ from swapcan.messages import (
     ThermalMode,
 )
 from swapcan.simulate.chg import Chg
+from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.plan import plan_of
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.standard_faults import planned_fault
 from swapcan.simulate.vcu import Vcu
+from swapcan.wire import Codec
 
 
 @pytest.fixture(autouse=True)
@@ -58,7 +61,7 @@ class Truck:
     def __init__(self, rig: Bench, fault: str = "") -> None:
         self.rig = rig
         self.faults = [planned_fault(fault)] if fault else []
-        self.bus = NotingBus(rig.tester, lambda _: None, clock=rig.clock)
+        self.bus = NotingBus(rig.tester, Codec(), lambda _: None, clock=rig.clock)
         self.driving = Driving(
             [self.bus], clock=rig.clock, wires=(rig.wire,), is_over=self._is_over
         )
@@ -71,6 +74,10 @@ class Truck:
             clock=rig.clock,
             wires=(rig.wire,),
         )
+
+    def leave(self, faults: Sequence[PlannedFault] = ()) -> Left:
+        """Leave the bus, as far as is not done yet; those faults end."""
+        return self.driving.leave(departure(self.simulation, [self.bus], faults))
 
     def _is_over(self) -> bool:
         return self.is_over()
@@ -106,7 +113,7 @@ def test_a_fault_of_the_transmission_does_not_keep_the_safe_codes_back(fault: st
         before = len(on_wire(driven.rig))
         assert before > 20
         begin = driven.rig.clock.now()
-        assert driven.driving.leave(driven.simulation, driven.faults) is Left.SAFE
+        assert driven.leave(driven.faults) is Left.SAFE
         assert driven.rig.clock.now() - begin == pytest.approx(0.5, abs=0.02)
         frames = on_wire(driven.rig)
         assert {command_in(frame) for frame in frames} == {HvCommand.HV_OFF}
@@ -123,7 +130,7 @@ def test_frames_that_are_held_back_do_not_act_after_the_safe_codes() -> None:
         driven.is_over = lambda: bool(driven.simulation.buses["VCU"][0]._held)
         driven.driving.live(driven.simulation.world, 5.0)
         on_wire(driven.rig)
-        assert driven.driving.leave(driven.simulation) is Left.SAFE  # the fault is not healed
+        assert driven.leave() is Left.SAFE  # the fault is not healed
         assert {command_in(frame) for frame in on_wire(driven.rig)} == {HvCommand.HV_OFF}
 
 
@@ -168,7 +175,7 @@ def test_leaving_that_is_broken_into_again_and_again_ends_all_the_same(
             raise KeyboardInterrupt
 
         monkeypatch.setattr(Driving, "_leave", break_in)
-        assert driven.driving.leave(driven.simulation) is Left.UNKNOWN
+        assert driven.leave() is Left.UNKNOWN
         assert 10 < len(tried) < 1000
         assert isinstance(driven.driving.interrupted, KeyboardInterrupt)
 
@@ -247,7 +254,7 @@ def test_a_simulated_pack_that_charges_and_cools_ends_that_for_the_others() -> N
     with SimulatedBus(wire) as near, SimulatedBus(wire) as far, SimulatedBus(wire) as listener:
         charger = Chg(far, clock=clock)
         clock.pack = charger  # type: ignore[assignment]  # lives beside what is driven
-        with NotingBus(near, lambda _: None, clock=clock) as bus:
+        with NotingBus(near, Codec(), lambda _: None, clock=clock) as bus:
             driven = Driving([bus], clock=clock, wires=(wire,), is_over=lambda: charger.current > 5)
             share = SharedBus(bus).share
             with Simulation(["BMU"], share, clock=clock, wires=(wire,)) as simulation:
@@ -256,7 +263,7 @@ def test_a_simulated_pack_that_charges_and_cools_ends_that_for_the_others() -> N
                 assert {message.NAME for message in bus.acting} == {"B2C_Charger", "BMS_TMS_0"}
                 while listener.recv(0):
                     pass
-                assert driven.leave(simulation) is Left.SAFE
+                assert driven.leave(departure(simulation, [bus])) is Left.SAFE
                 assert bus.acting == ()
         last = {}
         while frame := listener.recv(0):

@@ -16,6 +16,7 @@ from swapcan.conform.live.scenario import ScenarioError
 from swapcan.conform.live.stage import Left
 from swapcan.drive.noting_bus import NotingBus
 from swapcan.messages import V2B_CMD, HvCommand
+from swapcan.wire import Codec
 from typedcan.wire.clock import SimulatedClock
 
 NUMBER = V2B_CMD.FRAME_ID
@@ -45,7 +46,7 @@ def intruder(seconds: Iterable[float], *arrive: can.Message | None) -> bool:
     clock = SimulatedClock(10.0)
     with (
         Given(*arrive) as bus,
-        NotingBus(bus, lambda _: None, clock=clock, played=[NUMBER]) as noting,
+        NotingBus(bus, Codec(), lambda _: None, clock=clock, played=[V2B_CMD]) as noting,
     ):
         noting.send(own())
         for second in seconds:
@@ -70,7 +71,7 @@ def test_an_interface_that_has_given_back_one_frame_may_lose_the_next() -> None:
     clock = SimulatedClock()
     with (
         Given(own(), None, own()) as bus,
-        NotingBus(bus, lambda _: None, clock=clock, played=[NUMBER]) as noting,
+        NotingBus(bus, Codec(), lambda _: None, clock=clock, played=[V2B_CMD]) as noting,
     ):
         noting.send(own())
         noting.recv(0)
@@ -86,7 +87,10 @@ def test_what_another_program_of_this_machine_sends_is_not_ones_own() -> None:
     other = can.Message(arbitration_id=NUMBER, data=bytes(8), is_rx=False)
     assert intruder([0.1], other)
     noted: list[can.Message] = []
-    with Given(other) as bus, NotingBus(bus, noted.append, clock=SimulatedClock()) as noting:
+    with (
+        Given(other) as bus,
+        NotingBus(bus, Codec(), noted.append, clock=SimulatedClock()) as noting,
+    ):
         assert noting.recv(0)
     assert [each.is_rx for each in noted] == [True]
 
@@ -118,7 +122,7 @@ def test_an_impossible_time_is_the_time_of_arrival_and_spoils_no_other(second: f
         for number, each in enumerate((second, 5.0, second, 5.25))
     ]
     clock = SimulatedClock(1000.0)
-    with Given(*arrive) as bus, NotingBus(bus, noted.append, clock=clock) as noting:
+    with Given(*arrive) as bus, NotingBus(bus, Codec(), noted.append, clock=clock) as noting:
         while noting.recv(0):
             pass
     assert sorted((each.arbitration_id, each.timestamp) for each in noted) == [
@@ -132,7 +136,7 @@ def test_an_impossible_time_is_the_time_of_arrival_and_spoils_no_other(second: f
 def noted_at(clock: SimulatedClock, *arrive: can.Message) -> list[float]:
     """The times that frames are noted with."""
     noted: list[can.Message] = []
-    with Given(*arrive) as bus, NotingBus(bus, noted.append, clock=clock) as noting:
+    with Given(*arrive) as bus, NotingBus(bus, Codec(), noted.append, clock=clock) as noting:
         while noting.recv(0):
             pass
     return [each.timestamp for each in sorted(noted, key=lambda each: each.arbitration_id)]
@@ -156,7 +160,7 @@ def test_frames_without_a_time_have_each_that_of_their_arrival() -> None:
     noted: list[can.Message] = []
     with (
         Given(at(1, 0.0), at(2, 0.0)) as bus,
-        NotingBus(bus, noted.append, clock=clock) as noting,
+        NotingBus(bus, Codec(), noted.append, clock=clock) as noting,
     ):
         assert noting.recv(0)
         clock.advance_to(12.0)
@@ -167,7 +171,7 @@ def test_frames_without_a_time_have_each_that_of_their_arrival() -> None:
 def test_in_real_time_both_directions_have_the_time_of_day() -> None:
     noted: list[can.Message] = []
     second = time.time() - 0.01
-    with Given(at(1, second)) as bus, NotingBus(bus, noted.append) as noting:
+    with Given(at(1, second)) as bus, NotingBus(bus, Codec(), noted.append) as noting:
         assert noting.recv(0)
         noting.send(own())
     assert noted[0].timestamp == second

@@ -20,6 +20,7 @@ from swapcan.drive.watchdog import HungError, Watchdog
 from swapcan.messages import V2B_CMD, BmsState, HvCommand
 from swapcan.simulate.bmu import Bmu
 from swapcan.simulate.world import World
+from swapcan.wire import Codec
 from typedcan.shell.recording import Recording
 from typedcan.wire.clock import SimulatedClock, SystemClock
 
@@ -51,7 +52,7 @@ def test_off_is_sent_again_and_again_where_no_beat_comes_and_on_no_more(
 ) -> None:
     monkeypatch.setattr(watchdog, "_PATIENCE", 0.3)
     warned = threading.Semaphore(0)
-    with NotingBus(near, lambda _: None) as bus:
+    with NotingBus(near, Codec(), lambda _: None) as bus:
         dog = Watchdog([bus], SystemClock(), warned.release)
         with dog:
             bus.send(command(HvCommand.HV_ON, 0))
@@ -80,7 +81,7 @@ def now(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 def test_who_gives_signs_of_life_is_left_alone(
     near: can.BusABC, far: can.BusABC, now: list[float]
 ) -> None:
-    with NotingBus(near, lambda _: None) as bus, Watchdog([bus], SystemClock()) as dog:
+    with NotingBus(near, Codec(), lambda _: None) as bus, Watchdog([bus], SystemClock()) as dog:
         bus.send(command(HvCommand.HV_ON, 0))
         for _ in range(10):
             now[0] += 1.9
@@ -93,7 +94,7 @@ def test_who_gives_signs_of_life_is_left_alone(
 def test_where_nothing_acts_it_does_nothing(
     near: can.BusABC, far: can.BusABC, now: list[float]
 ) -> None:
-    with NotingBus(near, lambda _: None) as bus, Watchdog([bus], SystemClock()) as dog:
+    with NotingBus(near, Codec(), lambda _: None) as bus, Watchdog([bus], SystemClock()) as dog:
         bus.send(command(HvCommand.HV_OFF, 0))
         now[0] += 60.0
         time.sleep(0.1)
@@ -107,7 +108,7 @@ def test_where_nothing_acts_it_does_nothing(
 def test_a_machine_that_was_asleep_commands_nothing_that_acts_after_that(
     near: can.BusABC, far: can.BusABC, now: list[float]
 ) -> None:
-    with NotingBus(near, lambda _: None) as bus, Watchdog([bus], SystemClock()):
+    with NotingBus(near, Codec(), lambda _: None) as bus, Watchdog([bus], SystemClock()):
         bus.send(command(HvCommand.HV_ON, 0))
         now[0] += 1.9
         bus.send(command(HvCommand.HV_ON, 1))
@@ -122,7 +123,10 @@ def test_a_machine_that_was_asleep_commands_nothing_that_acts_after_that(
 def test_on_a_simulated_clock_there_is_no_thread(near: can.BusABC) -> None:
     before = threading.active_count()
     clock = SimulatedClock()
-    with NotingBus(near, lambda _: None, clock=clock) as bus, Watchdog([bus], clock) as dog:
+    with (
+        NotingBus(near, Codec(), lambda _: None, clock=clock) as bus,
+        Watchdog([bus], clock) as dog,
+    ):
         assert threading.active_count() == before
         assert not dog.is_late
 

@@ -30,6 +30,11 @@ from typedcan.shell.recording import Recording
 _DURATION = 60.0
 """Seconds to listen where nothing else is said."""
 
+_LEFT = {
+    Left.SAFE: "the pack has reported that it is off",
+    Left.UNKNOWN: "the pack has not reported that it is off",
+}
+
 
 def judged_on_bus(given: argparse.Namespace, choice: Choice, stack: ExitStack) -> list[Judged]:
     """Record a bus and judge the record; nothing where scenarios were announced only.
@@ -109,7 +114,7 @@ def _driven(
         _judged(given, choice, path, name, scenario)
         for (scenario, _), path in zip(scenarios[:played], paths, strict=False)
     ]
-    cut = left.value if left is Left.UNKNOWN else ""
+    cut = _LEFT[left] if left is Left.UNKNOWN else ""
     cut = "it was ended early" if interrupts.is_over else cut
     if cut and judged:
         rest = ", ".join(scenario.name for scenario, _ in scenarios[played:])
@@ -131,9 +136,9 @@ def _play(
     finally:
         progress.clear()
         if stage.left is Left.UNKNOWN:
-            note(f"{scenario.name}: {stage.left.value} within {LEAVING:g} s: {LIVE}")
+            note(f"{scenario.name}: {_LEFT[stage.left]} within {LEAVING:g} s: {LIVE}")
         elif stage.left is Left.SAFE:
-            note(f"{scenario.name}: {stage.left.value}")
+            note(f"{scenario.name}: {_LEFT[stage.left]}")
     return stage.left
 
 

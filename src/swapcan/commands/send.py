@@ -59,7 +59,7 @@ def _run(tool: Tool, options: argparse.Namespace) -> int:
     with open_bus(options, virtual=virtual) as bus:
         if looks_out:
             note(f"looking for another {message.SENDER} for {LOOK_OUT:g} s")
-            with NotingBus(bus, lambda _: None, played=[message.FRAME_ID]) as noting:
+            with NotingBus(bus, codec, lambda _: None, played=[type(message)]) as noting:
                 Driving([noting], clock=SystemClock()).look_out()
         frame = Link(bus, codec).send(message, timeout=_TIMEOUT)
     sent = codec.decode_frame(frame)

@@ -11,12 +11,15 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands.driving import HUNG, LIVE, acting_nodes, who_acts
 from swapcan.commands.simulation_report import SimulationReport
+from swapcan.drive.departure import Departure
 from swapcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.drive.reports import departure
 from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.plan import PlannedStep
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulation import Simulation
+from swapcan.wire import Codec
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.wire.clock import SystemClock
@@ -82,11 +85,11 @@ class LivingNodes:
 
     def live(self, interrupts: Interrupts) -> None:
         """Look out for others where something acts, let them live, and leave the buses safe."""
-        played = [kind.FRAME_ID for node in self._names for kind in PROTOCOL.sent_by(node)]
+        played = [kind for node in self._names for kind in PROTOCOL.sent_by(node)]
         with ExitStack() as stack:
             self._buses = [
                 stack.enter_context(
-                    NotingBus(bus, _ignore, played=played if self._looks_out else ())
+                    NotingBus(bus, Codec(), _ignore, played=played if self._looks_out else ())
                 )
                 for bus in self._lent
             ]
@@ -120,17 +123,18 @@ class LivingNodes:
             )
             report = SimulationReport(simulation, as_json=self._options.json)
             note(f"simulating {', '.join(self._names)} on {self._name}, Ctrl-C ends")
+            leaving = departure(simulation, self._buses, self._options.faults)
             try:
                 driving.live(simulation.world, self._options.seconds)
             finally:
                 lived = simulation.world.elapsed
-                self._leave(driving, simulation)
+                self._leave(driving, leaving)
                 note(report.summary(lived, *shared))
 
-    def _leave(self, driving: Driving, simulation: Simulation) -> None:
+    def _leave(self, driving: Driving, leaving: Departure) -> None:
         if not any(bus.has_acted for bus in self._buses):
             return
-        left = driving.leave(simulation, self._options.faults)
+        left = driving.leave(leaving)
         still = [message.NAME for bus in self._buses for message in bus.acting]
         if still:
             problem = f"the safe codes of {', '.join(still)} could not be sent"

@@ -8,24 +8,20 @@ commanded holds until the timeout of who receives it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from enum import Enum
 from functools import partial
 
-import can
-
-from swapcan._generated.protocol import PROTOCOL
+from swapcan.drive.departure import Departure
 from swapcan.drive.noting_bus import NotingBus
-from swapcan.drive.reports import are_off, forget_charging
 from swapcan.drive.watchdog import Watchdog
-from swapcan.simulate.faults import PlannedFault
 from swapcan.simulate.participant import Participant
 from swapcan.simulate.simulated_bus import SimulatedWire
-from swapcan.simulate.simulation import Simulation
 from swapcan.simulate.world import World
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.clock import Clock
+from typedcan.wire.message import Message
 
 LOOK_OUT = 2.0
 """Seconds in which nobody else may send what is to be sent: twice the longest period."""
@@ -34,7 +30,7 @@ LEAVING = 5.0
 """Seconds at most in which others are told to switch off before nothing is sent any more."""
 
 _LEAVING_AT_LEAST = 0.5
-"""Ten commands to switch off, and five reports of the pack."""
+"""Enough for some commands to switch off and for some reports, where their periods are short."""
 
 _SLICE = 0.05
 """Seconds between two looks at whether to go on."""
@@ -50,13 +46,13 @@ _ATTEMPTS = 100
 
 
 class BusyBusError(TypedcanError):
-    """Somebody else sends a message that is to be sent here; ``frame`` is that of theirs."""
+    """Somebody else sends a message that is to be sent here; ``message`` is its class."""
 
-    def __init__(self, frame: can.Message) -> None:
-        self.frame = frame
-        kind = next(each for each in PROTOCOL.messages if frame.arbitration_id == each.FRAME_ID)
+    def __init__(self, message: type[Message]) -> None:
+        self.message = message
+        number = f"0x{message.FRAME_ID:0{8 if message.EXTENDED else 3}X}"
         super().__init__(
-            f"another {kind.SENDER} is on the bus: {kind.NAME} (0x{kind.FRAME_ID:08X}) comes from"
+            f"another {message.SENDER} is on the bus: {message.NAME} ({number}) comes from"
             " somebody else; nothing is sent beside it"
         )
 
@@ -64,8 +60,8 @@ class BusyBusError(TypedcanError):
 class Left(Enum):
     """How those who act on commands were left."""
 
-    SAFE = "the pack has reported that it is off"
-    UNKNOWN = "the pack has not reported that it is off"
+    SAFE = "they have reported that they are off"
+    UNKNOWN = "they have not reported that they are off"
     UNTOUCHED = "nothing was sent"
 
 
@@ -130,7 +126,7 @@ class Driving:
                 for bus in self._buses:
                     self._check(bus)
 
-    def leave(self, simulation: Simulation, faults: Iterable[PlannedFault] = ()) -> Left:
+    def leave(self, departure: Departure) -> Left:
         """Send the safe codes, and go on until those who act report that they are off.
 
         Nothing cuts that short: neither an exception of any kind nor ``is_over``. No code that
@@ -140,30 +136,31 @@ class Driving:
         for _ in range(_ATTEMPTS):
             try:
                 with self._watchdog:
-                    return self._leave(simulation, faults, begin)
+                    return self._leave(departure, begin)
             except BaseException as error:  # noqa: BLE001 - is raised once all is off
                 self.interrupted = self.interrupted or error
         return Left.UNKNOWN
 
-    def _leave(self, simulation: Simulation, faults: Iterable[PlannedFault], begin: float) -> Left:
+    def _leave(self, departure: Departure, begin: float) -> Left:
         for bus in self._buses:
             bus.has_ended = True
-        self._send_safe_codes(simulation, faults)
-        self._try(lambda: forget_charging(simulation, self._buses))
-        if simulation.vcu:
-            self._try(simulation.vcu.withdraw)
-        # The BMU would command again what its state asks for; the others have been told.
-        others = [each for name, each in simulation.participants.items() if name != "BMU"]
+        for heal in departure.heal:
+            self._try(heal)
+        everybody = (*departure.stand_still, *departure.live_on)
+        self._send_safe_codes(everybody)
+        for withdraw in departure.withdraw:
+            self._try(withdraw)
         # What is still planned is for the other world.
-        world = World(*others, clock=self._clock, wires=self._wires)
+        world = World(*departure.live_on, clock=self._clock, wires=self._wires)
         while (passed := self._clock.now() - begin) < LEAVING - _MOMENT:
             self._let_pass(world)
             self._watchdog.beat()
             if self._acts or (passed < _LEAVING_AT_LEAST and self._is_quiet):
-                self._send_safe_codes(simulation, ())
-            elif simulation.bmu and passed < _LEAVING_AT_LEAST:
-                self._send_those_of(simulation.bmu)
-            if passed + _SLICE >= _LEAVING_AT_LEAST - _MOMENT and self._are_off(simulation):
+                self._send_safe_codes(everybody)
+            elif passed < _LEAVING_AT_LEAST:
+                self._send_those_of(departure.stand_still)
+            is_enough = passed + _SLICE >= _LEAVING_AT_LEAST - _MOMENT
+            if is_enough and not self._acts and departure.are_off():
                 return Left.SAFE
         return Left.UNKNOWN
 
@@ -176,10 +173,6 @@ class Driving:
         """Whether nobody commands anything, be it that something is wrong with the nodes."""
         last = max(bus.commanded_at for bus in self._buses)
         return self._clock.now() - last > 1.5 * _SLICE
-
-    def _are_off(self, simulation: Simulation) -> bool:
-        """Whether those who were commanded say that they are off, and nothing acts any more."""
-        return not self._acts and are_off(simulation.participants, self._buses)
 
     def _check(self, bus: NotingBus) -> None:
         if bus.intruder:
@@ -208,19 +201,17 @@ class Driving:
         world.after_each_step(hear)
         return world
 
-    def _send_safe_codes(self, simulation: Simulation, faults: Iterable[PlannedFault]) -> None:
+    def _send_safe_codes(self, participants: Sequence[Participant]) -> None:
         """By the nodes, whose counters go on, and where that fails on the bare buses."""
-        for fault in faults:
-            self._try(partial(simulation.heal, fault))
-        for participant in simulation.participants.values():
-            self._send_those_of(participant)
+        self._send_those_of(participants)
         for bus in self._buses:
             if bus.acting:
                 self._note(bus.send_safe_codes())
 
-    def _send_those_of(self, participant: Participant) -> None:
-        for node in participant.nodes:
-            self._try(node.send_safe_codes)
+    def _send_those_of(self, participants: Sequence[Participant]) -> None:
+        for participant in participants:
+            for node in participant.nodes:
+                self._try(node.send_safe_codes)
 
     def _let_pass(self, world: World) -> None:
         """Let a slice of time pass, whatever is wrong with those who live in it."""

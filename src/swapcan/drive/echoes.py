@@ -14,6 +14,8 @@ Later the same bytes are another's."""
 _AT_ONCE = 0.5
 """Seconds after which it is plain, on a bus that is heard to its end, that nothing comes back."""
 
+_Key = tuple[int, bool, bytes]
+
 
 class Echoes:
     """What was sent and may come back; any thread may add to it.
@@ -23,7 +25,7 @@ class Echoes:
     """
 
     def __init__(self) -> None:
-        self._sent: defaultdict[tuple[int, bytes], deque[float]] = defaultdict(deque)
+        self._sent: defaultdict[_Key, deque[float]] = defaultdict(deque)
         self._first: float | None = None
         self._come: bool | None = None
 
@@ -54,5 +56,5 @@ class Echoes:
             self._sent.clear()
 
 
-def _key(frame: can.Message) -> tuple[int, bytes]:
-    return frame.arbitration_id, bytes(frame.data)
+def _key(frame: can.Message) -> _Key:
+    return frame.arbitration_id, frame.is_extended_id, bytes(frame.data)

@@ -18,7 +18,7 @@ class InOrder:
     """Frames that wait to be told of.
 
     Once ``note`` raises it is told no more, and ``failure`` has what it raised: neither a full disk
-    nor anything else of a recorder is to hold up who drives a pack.
+    nor anything else of a recorder is to hold up who drives a bus.
     """
 
     def __init__(self, note: Callable[[can.Message], object]) -> None:

@@ -8,15 +8,17 @@ from copy import copy
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.drive.echoes import Echoes
 from swapcan.drive.frame_times import FrameTimes
 from swapcan.drive.in_order import InOrder
-from swapcan.wire import Codec
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.acting import SentCommands, acting_fields, acts
 from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message
+
+Identifier = tuple[int, bool]
+"""The number of a frame, and whether it has 29 bits."""
 
 
 class EndedError(TypedcanError):
@@ -38,6 +40,8 @@ class NotingBus(can.BusABC):
     ----------
     bus
         The bus to send and receive on.
+    codec
+        Of the protocol that says which codes act; checksums of safe codes are by its algorithms.
     note
         Is told of each frame, received or sent, the latter with ``is_rx`` False, in the order of
         their times and in the thread that sends and receives. Once it raises it is told no more,
@@ -45,42 +49,46 @@ class NotingBus(can.BusABC):
     clock
         Of those who send; on a simulated one frames must have its times.
     played
-        Identifiers that nobody else may send: ``intruder`` is a frame of somebody who does.
+        Messages that nobody else may send: ``intruder`` is one of somebody who does.
     echoes
         What was sent on the same bus before, and may still come back.
 
     ``may_act`` is called before a code that acts is sent, and keeps it back by raising. ``latest``
-    is the last frame of others, by identifier; none from before the last code that acts.
+    is the last frame of others, by identifier and whether that has 29 bits; none from before the
+    last code that acts.
     """
 
     def __init__(
         self,
         bus: can.BusABC,
+        codec: Codec,
         note: Callable[[can.Message], object],
         *,
         clock: Clock | None = None,
-        played: Collection[int] = (),
+        played: Collection[type[Message]] = (),
         echoes: Echoes | None = None,
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
-        self._played = frozenset(played)
+        self._played = {_identifier(kind): kind for kind in played}
         self._times = FrameTimes(self._clock)
         self._record = InOrder(note)
         self._echoes = echoes or Echoes()
-        self._codec = Codec()
+        self._codec = codec
         self._commands = SentCommands()
-        self._acting_ids = {kind.FRAME_ID for kind in PROTOCOL.messages if acting_fields(kind)}
+        self._acting = {
+            _identifier(kind) for kind in codec.protocol.messages if acting_fields(kind)
+        }
         self._trouble: dict[str, tuple[float, Exception]] = {}  # by direction
         self.may_act: Callable[[], object] = lambda: None
-        self.latest: dict[int, can.Message] = {}
+        self.latest: dict[Identifier, can.Message] = {}
         self.has_acted = False
         """Whether a code that acts was ever sent."""
         self.has_ended = False
         """Whether what acts was ended: then no code that acts is sent any more."""
         self.commanded_at = -math.inf
         """When the bus took the last message that can act, by the clock."""
-        self.intruder: can.Message | None = None
+        self.intruder: type[Message] | None = None
         self.channel_info = bus.channel_info
         super().__init__(channel=bus.channel_info)
 
@@ -146,17 +154,19 @@ class NotingBus(can.BusABC):
 
     def _command_in(self, frame: can.Message) -> Message | None:
         """The message that can act in a frame, if there is one."""
-        if frame.arbitration_id not in self._acting_ids or not frame.is_extended_id:
+        if identifier_of(frame) not in self._acting:
             return None
+        number, extended = identifier_of(frame)
         try:
-            return self._codec.decode(frame.arbitration_id, bytes(frame.data), verify=False)
+            return self._codec.decode(number, bytes(frame.data), verify=False, extended=extended)
         except TypedcanError:
             return None
 
     def _is_obeyed(self, frame: can.Message, command: Message) -> bool:
         """Whether its receiver has no reason to pass over a frame: checksum and counter go on."""
+        number, extended = identifier_of(frame)
         try:
-            self._codec.decode(frame.arbitration_id, bytes(frame.data))
+            self._codec.decode(number, bytes(frame.data), extended=extended)
         except TypedcanError:
             return False
         counter, before = type(command).COUNTER, self._commands.last(type(command))
@@ -171,8 +181,9 @@ class NotingBus(can.BusABC):
             last = getattr(message, kind.COUNTER.field)
             counter = (last + 1) % kind.COUNTER.modulus if isinstance(last, int) else 0
         frame = self._codec.frame(message, counter=counter, safe=True)
+        number, extended = identifier_of(frame)
         data = bytes(frame.data)
-        self._commands.begin(self._codec.decode(kind.FRAME_ID, data, verify=False))
+        self._commands.begin(self._codec.decode(number, data, verify=False, extended=extended))
         return frame
 
     def _sent(self, msg: can.Message, timeout: float | None) -> tuple[can.Message, float]:
@@ -200,9 +211,8 @@ class NotingBus(can.BusABC):
         if frame is None:
             self._echoes.heard_all(self._clock.now())
             return None, False
-        self.latest[frame.arbitration_id] = frame
-        if frame.arbitration_id in self._played and frame.is_extended_id:
-            self.intruder = frame
+        self.latest[identifier_of(frame)] = frame
+        self.intruder = self._played.get(identifier_of(frame), self.intruder)
         received = copy(frame)
         received.is_rx = True
         self._record.take(received, self._times.received(frame))
@@ -213,3 +223,12 @@ class NotingBus(can.BusABC):
         if not self._is_shutdown:
             self._record.tell_all()
         super().shutdown()
+
+
+def identifier_of(frame: can.Message) -> Identifier:
+    """By which frame or message it is known whose it is."""
+    return frame.arbitration_id, frame.is_extended_id
+
+
+def _identifier(kind: type[Message]) -> Identifier:
+    return kind.FRAME_ID, kind.EXTENDED

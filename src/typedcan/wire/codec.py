@@ -30,7 +30,8 @@ class Codec:
     Parameters
     ----------
     protocol
-        Whose messages, as a package that `dbcspec generate` wrote has it, or `typed_protocol`.
+        Whose messages, as a package that `dbcspec generate` wrote has it, or `typed_protocol`; can
+        be read again.
     algorithms
         Checksum algorithms by name, for those that are not known here: a function from the covered
         bytes to one byte, for example ``{"Status_CRC": my_crc}``. Without one that checksum is sent

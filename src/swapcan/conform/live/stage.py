@@ -12,10 +12,12 @@ from swapcan.conform.live.scenario import Scenario, ScenarioError
 from swapcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
 from swapcan.drive.echoes import Echoes
 from swapcan.drive.noting_bus import NotingBus
+from swapcan.drive.reports import departure
 from swapcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from swapcan.simulate.shared_bus import SharedBus
 from swapcan.simulate.simulated_bus import SimulatedWire
 from swapcan.simulate.simulation import Simulation
+from swapcan.wire import Codec
 from typedcan.wire.clock import Clock, SystemClock
 
 __all__ = ["LEAVING", "LOOK_OUT", "Left", "Stage"]
@@ -89,9 +91,9 @@ class Stage:
             What a bus has raised for a second, and what ``note``, ``watch`` and ``is_over`` raise.
         """
         self.left = Left.UNTOUCHED
-        played = [kind.FRAME_ID for node in nodes for kind in PROTOCOL.sent_by(node)]
+        played = [kind for node in nodes for kind in PROTOCOL.sent_by(node)]
         with NotingBus(
-            self._bus, note, clock=self._clock, played=played, echoes=self._echoes
+            self._bus, Codec(), note, clock=self._clock, played=played, echoes=self._echoes
         ) as bus:
             self._driven = bus
             self._driving = driving = Driving(
@@ -128,11 +130,12 @@ class Stage:
         if self._is_over():
             return
         with self._simulation(scenario, nodes, bus) as simulation:
+            leave = partial(driving.leave, departure(simulation, [bus], scenario.faults))
             self.left = Left.UNKNOWN
             try:
                 driving.live(simulation.world, scenario.seconds)
             finally:
-                self.left = driving.leave(simulation, scenario.faults)
+                self.left = leave()
 
     def _simulation(self, scenario: Scenario, nodes: Sequence[str], bus: NotingBus) -> Simulation:
         """The played nodes, with what the scenario plans."""
