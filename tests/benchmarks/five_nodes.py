@@ -24,8 +24,8 @@ import can
 
 from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.simulate.plan import planned_step
-from swapcan.simulate.simulation import Simulation
+from swapcan.nodes.plan import planned_step
+from swapcan.nodes.simulation import Simulation
 from swapcan.wire import Receiver
 from typedcan.wire.message import Message
 

@@ -18,8 +18,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from swapcan.simulate.plan import PlannedStep
-from swapcan.simulate.simulation import Simulation
+from swapcan.nodes.plan import PlannedStep
+from swapcan.nodes.simulation import Simulation
 
 BLOCKS = 10_000
 """Memory blocks that may be more in the second half."""

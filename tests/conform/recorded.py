@@ -18,8 +18,8 @@ from swapcan.simulate import (
     plan_of,
     planned_fault,
 )
-from swapcan.simulate.simulated_bus import SimulatedBus
 from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.simulate.simulated_bus import SimulatedBus
 
 DEFAULT = ", ".join(map(str, DEFAULT_PLAN))
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import can
 import pytest
-from conform.live_lines import line
 from conform.recorded import recorded, written
+from scenarios.lines import line
 
 from swapcan import cli
 from swapcan.conform import RULES

@@ -11,7 +11,7 @@ import pytest
 
 from swapcan import cli
 from swapcan.conform import RULES
-from swapcan.conform.live.scenarios import SCENARIOS
+from swapcan.scenarios.scenarios import SCENARIOS
 
 
 def run(*arguments: object) -> int:

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from simulate.commands import started
+from commands.running import started
 
 
 @dataclass
@@ -75,7 +75,7 @@ def parent() -> Iterator[Parent]:
 
 def _main() -> None:
     import swapcan.commands.conformance  # noqa: F401 - is loaded once for all
-    from swapcan.drive import driving
+    from typedcan.drive import driving
 
     driving.LOOK_OUT = 0.3
     pids = [_fork(*given) for given in json.loads(sys.stdin.readline())]

@@ -6,7 +6,7 @@ import os
 import sys
 
 from swapcan.__main__ import main
-from swapcan.drive import driving
+from typedcan.drive import driving
 
 if __name__ == "__main__":
     driving.LOOK_OUT = 0.3

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import can
-from conform.live_lines import database
+from scenarios.lines import database
 
 from swapcan.messages import V2B_CMD, BmsState, HvCommand
 

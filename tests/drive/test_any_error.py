@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from _pytest.mark import ParameterSet
-from conform.live_rig import Bench, bench
 from drive.trouble import EXCEPTIONS, OTHERS, PLACES, Phase, Progress, Trouble, play
+from scenarios.rig import Bench, bench
 
-from swapcan.conform.live.stage import Left, Stage
-from swapcan.drive import driving
 from swapcan.messages import HvCommand
+from swapcan.scenarios.stage import Left, Stage
+from typedcan.drive import driving
 
 ERRORS = (*EXCEPTIONS, *OTHERS)
 OWN_TIMEOUT = 11.0

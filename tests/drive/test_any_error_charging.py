@@ -9,17 +9,17 @@ from dataclasses import replace
 import can
 import pytest
 from _pytest.mark import ParameterSet
-from conform.live_lines import values
-from conform.live_rig import Bench, bench
-from conform.test_live_safety import Sleeping
 from drive.trouble import EXCEPTIONS, OTHERS, PLACES, Trouble, play
+from scenarios.lines import values
+from scenarios.rig import Bench, bench
+from scenarios.test_safety import Sleeping
 
-from swapcan.conform.live.scenario import Scenario
-from swapcan.conform.live.stage import Left
 from swapcan.conform.text import Text
-from swapcan.drive import driving
 from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl, ChargerOperation
-from swapcan.simulate.plan import plan_of
+from swapcan.nodes.plan import plan_of
+from swapcan.scenarios.scenario import Scenario
+from swapcan.scenarios.stage import Left
+from typedcan.drive import driving
 
 SCENARIO = Scenario(
     name="charger",

@@ -7,10 +7,10 @@ from typing import Any
 
 import can
 import pytest
-from simulate.commands import as_arguments, bus_options
+from commands.running import as_arguments, bus_options
 
 from swapcan import cli
-from swapcan.drive import driving
+from typedcan.drive import driving
 
 ON = ("send", "V2B_CMD", "hv_on_off=HV On")
 TRUCK = ("simulate", "VCU", "--seconds", "0.1", "--plan", "")

@@ -7,10 +7,9 @@ from collections.abc import Callable, Iterator
 
 import can
 import pytest
-from conform.live_lines import values
+from scenarios.lines import values
 
 from swapcan import encode
-from swapcan.drive.noting_bus import EndedError, NotingBus
 from swapcan.messages import (
     BMS_TMS_0,
     V2B_CMD,
@@ -23,6 +22,7 @@ from swapcan.messages import (
     ThermalMode,
 )
 from swapcan.wire import Codec
+from typedcan.drive.noting_bus import EndedError, NotingBus
 from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message
 

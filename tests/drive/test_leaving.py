@@ -12,17 +12,13 @@ from typing import Any
 
 import can
 import pytest
-from conform.live_lines import values
-from conform.live_rig import Bench, SharedClock, bench
 from drive.quick_pack import command_in
 from drive.trouble import SCENARIO, Phase, Progress
+from scenarios.lines import values
+from scenarios.rig import Bench, SharedClock, bench
 
-import swapcan.drive
-from swapcan.conform.live.stage import Left, Stage
-from swapcan.drive import driving
-from swapcan.drive.driving import Driving
-from swapcan.drive.noting_bus import NotingBus
-from swapcan.drive.reports import departure
+import swapcan.nodes.departure
+import typedcan.drive
 from swapcan.messages import (
     BMS_TMS_0,
     V2B_CMD,
@@ -34,15 +30,20 @@ from swapcan.messages import (
     HvRequest,
     ThermalMode,
 )
-from swapcan.simulate.chg import Chg
-from swapcan.simulate.faults import PlannedFault
-from swapcan.simulate.plan import plan_of
-from swapcan.simulate.shared_bus import SharedBus
-from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from swapcan.simulate.simulation import Simulation
-from swapcan.simulate.standard_faults import planned_fault
-from swapcan.simulate.vcu import Vcu
+from swapcan.nodes.chg import Chg
+from swapcan.nodes.departure import departure
+from swapcan.nodes.faults import planned_fault
+from swapcan.nodes.plan import plan_of
+from swapcan.nodes.simulation import Simulation
+from swapcan.nodes.vcu import Vcu
+from swapcan.scenarios.stage import Left, Stage
 from swapcan.wire import Codec
+from typedcan.drive import driving
+from typedcan.drive.driving import Driving
+from typedcan.drive.noting_bus import NotingBus
+from typedcan.simulate.faults import PlannedFault
+from typedcan.simulate.shared_bus import SharedBus
+from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 
 
 @pytest.fixture(autouse=True)
@@ -227,11 +228,12 @@ def test_an_interrupt_at_any_line_of_the_leaving_does_not_cut_it_short(line: int
 
 
 class AtLine:
-    """Raises `KeyboardInterrupt` at the so many-th line that runs in the package that leaves."""
+    """Raises `KeyboardInterrupt` at the so many-th line that runs of what leaves."""
 
     def __init__(self, line: int) -> None:
         self._left = line
-        self._folder = str(Path(swapcan.drive.__file__).parent)
+        drive = str(Path(typedcan.drive.__file__).parent)
+        self._places = (drive, swapcan.nodes.departure.__file__)
         self.before = sys.gettrace()
 
     def begin(self) -> None:
@@ -239,7 +241,7 @@ class AtLine:
         sys.settrace(self._trace)
 
     def _trace(self, frame: FrameType, event: str, _: object) -> Any:
-        if not frame.f_code.co_filename.startswith(self._folder):
+        if not frame.f_code.co_filename.startswith(self._places):
             return None
         if event == "line":
             self._left -= 1

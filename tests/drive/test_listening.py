@@ -12,7 +12,7 @@ from can.interfaces.virtual import VirtualBus
 from drive.trouble import EXCEPTIONS
 
 from swapcan import cli
-from swapcan.drive.listening import listen
+from typedcan.drive.listening import listen
 
 
 class Raising(can.BusABC):

@@ -8,14 +8,12 @@ from contextlib import contextmanager
 
 import can
 import pytest
-from conform.live_rig import bench
+from commands.running import as_arguments, bus_options
 from drive.quick_pack import QuickPack, living
 from drive.trouble import EXCEPTIONS, Progress, Trouble, play
-from simulate.commands import as_arguments, bus_options
+from scenarios.rig import bench
 
 from swapcan import Message, cli, encode
-from swapcan.conform.live.stage import Left
-from swapcan.drive import driving
 from swapcan.messages import (
     B2V_ST0,
     V2B_CMD,
@@ -25,6 +23,8 @@ from swapcan.messages import (
     HvCommand,
     V2B_RQData,
 )
+from swapcan.scenarios.stage import Left
+from typedcan.drive import driving
 
 YES = "--yes-drive-the-bus"
 OFF = V2B_CMD(hv_on_off=HvCommand.HV_OFF, vehicle_speed=0.0)

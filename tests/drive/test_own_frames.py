@@ -8,15 +8,15 @@ from collections.abc import Iterable
 
 import can
 import pytest
-from conform.live_rig import bench
 from drive.trouble import SCENARIO
+from scenarios.rig import bench
 
 from swapcan import encode
-from swapcan.conform.live.scenario import ScenarioError
-from swapcan.conform.live.stage import Left
-from swapcan.drive.noting_bus import NotingBus
 from swapcan.messages import V2B_CMD, HvCommand
+from swapcan.scenarios.scenario import ScenarioError
+from swapcan.scenarios.stage import Left
 from swapcan.wire import Codec
+from typedcan.drive.noting_bus import NotingBus
 from typedcan.wire.clock import SimulatedClock
 
 NUMBER = V2B_CMD.FRAME_ID

@@ -11,15 +11,15 @@ from typing import Any
 import can
 import pytest
 from can.interfaces.virtual import VirtualBus
-from conform.live_lines import values
 from drive.quick_pack import QuickPack, living
 from drive.trouble import QUICK
 from monitor.test_monitor_recording import full_disk
+from scenarios.lines import values
 
 from swapcan import cli
-from swapcan.conform.live import scenarios
-from swapcan.drive import driving
 from swapcan.messages import B2V_ST1, HvCommand
+from swapcan.scenarios import scenarios
+from typedcan.drive import driving
 
 COMMAND = ("conform", "--active", QUICK.name, "--yes-drive-the-bus", "-i", "virtual", "-c")
 

@@ -11,9 +11,9 @@ from drive.quick_pack import QuickPack, living
 from drive.trouble import QUICK
 
 from swapcan import cli
-from swapcan.conform.live import scenarios
-from swapcan.drive import driving
 from swapcan.messages import HvCommand
+from swapcan.scenarios import scenarios
+from typedcan.drive import driving
 
 if sys.platform == "win32":
     pytest.skip("Windows has no pseudo-terminals", allow_module_level=True)

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import can
 import pytest
+from commands.running import as_arguments, bus_options, environment, started
 from drive.forked import parent
 from drive.quick_pack import ENOUGH, QuickPack, living
-from simulate.commands import as_arguments, bus_options, environment, started
 
 from swapcan.messages import HvCommand
 

@@ -9,14 +9,14 @@ from dataclasses import replace
 import can
 import pytest
 from can.interfaces.virtual import VirtualBus
+from commands.running import as_arguments, bus_options
 from drive.quick_pack import QuickPack, living
 from drive.trouble import QUICK
-from simulate.commands import as_arguments, bus_options
 
 from swapcan import cli
-from swapcan.conform.live import scenarios
-from swapcan.drive import driving
 from swapcan.messages import HvCommand
+from swapcan.scenarios import scenarios
+from typedcan.drive import driving
 
 Capture = pytest.CaptureFixture[str]
 TRUCK = ("simulate", "VCU", "--plan", "hv_on@200ms", "-i", "virtual", "-c")

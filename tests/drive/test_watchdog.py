@@ -11,17 +11,17 @@ from typing import Any
 import can
 import pytest
 from can.interfaces.virtual import VirtualBus
-from conform.live_lines import values
+from scenarios.lines import values
 
 from swapcan import cli, encode
-from swapcan.drive import driving, watchdog
-from swapcan.drive.noting_bus import NotingBus
-from swapcan.drive.watchdog import HungError, Watchdog
 from swapcan.messages import V2B_CMD, BmsState, HvCommand
-from swapcan.simulate.bmu import Bmu
-from swapcan.simulate.world import World
+from swapcan.nodes.bmu import Bmu
 from swapcan.wire import Codec
+from typedcan.drive import driving, watchdog
+from typedcan.drive.noting_bus import NotingBus
+from typedcan.drive.watchdog import HungError, Watchdog
 from typedcan.shell.recording import Recording
+from typedcan.simulate.world import World
 from typedcan.wire.clock import SimulatedClock, SystemClock
 
 ENOUGH = 20.0

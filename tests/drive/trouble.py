@@ -9,15 +9,15 @@ from dataclasses import replace
 from enum import Enum
 
 import can
-from conform.live_lines import values
-from conform.live_rig import Bench
 from drive.quick_pack import command_in
+from scenarios.lines import values
+from scenarios.rig import Bench
 
-from swapcan.conform.live.scenario import Scenario
-from swapcan.conform.live.stage import Stage
 from swapcan.conform.text import Text
 from swapcan.messages import V2B_CMD, BmsState, HvCommand, RelayState
-from swapcan.simulate.plan import plan_of
+from swapcan.nodes.plan import plan_of
+from swapcan.scenarios.scenario import Scenario
+from swapcan.scenarios.stage import Stage
 
 
 class DriverError(Exception):

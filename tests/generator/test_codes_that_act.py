@@ -16,7 +16,7 @@ from defaults import needed_by
 from swapcan import Message, encode, message_type
 from swapcan.messages import MESSAGES
 from swapcan.simulate import Simulation
-from swapcan.simulate.simulated_bus import SimulatedBus
+from typedcan.simulate.simulated_bus import SimulatedBus
 
 MUST_BE_GIVEN = None
 FILES = {

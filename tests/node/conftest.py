@@ -10,10 +10,10 @@ from pathlib import Path
 
 import can
 import pytest
+from commands.running import bus_options
 from node.bench import Bench, Ear, Recorder
 from node.programs import Program, running
 from node.rough_bus import Hang, RoughBus, made_rough
-from simulate.commands import bus_options
 
 from typedcan.shell import process_signals
 

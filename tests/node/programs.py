@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import can
+from commands.running import environment
 from node.rough_bus import PATIENCE, frames_until, is_on, rest
-from simulate.commands import environment
 
 _BEGIN = """
 import json, os, signal, sys, threading, time

@@ -8,7 +8,7 @@ from uuid import uuid4
 import can
 import pytest
 
-from swapcan.simulate.shared_bus import SharedBus
+from typedcan.simulate.shared_bus import SharedBus
 
 
 def identifiers(bus: can.BusABC) -> list[int]:

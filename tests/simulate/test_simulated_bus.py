@@ -8,7 +8,7 @@ from contextlib import ExitStack
 import can
 import pytest
 
-from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.wire.clock import SimulatedClock
 
 

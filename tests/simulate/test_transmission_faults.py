@@ -13,11 +13,11 @@ from defaults import default_of
 from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.node import Node
-from swapcan.simulate.faults import TRANSMISSION_FAULTS, can_have
-from swapcan.simulate.participant import Participant
-from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from swapcan.simulate.standard_faults import FaultyBus
-from swapcan.simulate.world import World
+from swapcan.nodes.faults import FaultyBus
+from typedcan.simulate.faults import TRANSMISSION_FAULTS, can_have
+from typedcan.simulate.participant import Participant
+from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.simulate.world import World
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message

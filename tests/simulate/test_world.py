@@ -13,13 +13,13 @@ from uuid import uuid4
 import can
 import pytest
 
-from swapcan.simulate import line_world
-from swapcan.simulate.bsu import Bsu
-from swapcan.simulate.participant import Participant, UnknownFaultError
-from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from swapcan.simulate.simulation import Simulation
-from swapcan.simulate.tms import Tms
-from swapcan.simulate.world import World
+from swapcan.nodes import world as line_world
+from swapcan.nodes.bsu import Bsu
+from swapcan.nodes.simulation import Simulation
+from swapcan.nodes.tms import Tms
+from typedcan.simulate.participant import Participant, UnknownFaultError
+from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.simulate.world import World
 from typedcan.wire.clock import SimulatedClock, SystemClock
 
 

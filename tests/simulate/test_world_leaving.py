@@ -19,9 +19,9 @@ from swapcan import StillActingError
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import V2B_CMD, HvCommand
 from swapcan.node import Node
-from swapcan.simulate.participant import Participant
-from swapcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from swapcan.simulate.world import World
+from typedcan.simulate.participant import Participant
+from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
+from typedcan.simulate.world import World
 from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 
 

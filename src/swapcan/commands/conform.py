@@ -8,11 +8,11 @@ from pathlib import Path
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from swapcan.simulate.times import PlanError, seconds_of
 from typedcan.commands.bus_options import add_bus_options
 from typedcan.commands.log_options import add_window_options, need
 from typedcan.commands.tool import completing_files
 from typedcan.shell.command_line import Command
+from typedcan.simulate.times import PlanError, seconds_of
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -16,12 +16,12 @@ import can
 from swapcan.commands.conform_choice import Choice
 from swapcan.commands.conform_reports import Judged
 from swapcan.commands.driving import HUNG, LIVE
-from swapcan.conform.live.announcement import announcement
-from swapcan.conform.live.scenario import Scenario
-from swapcan.conform.live.scenarios import scenarios_of
-from swapcan.conform.live.stage import LEAVING, Left, Stage
-from swapcan.drive.listening import listen
+from swapcan.scenarios.announcement import announcement
+from swapcan.scenarios.scenario import Scenario
+from swapcan.scenarios.scenarios import scenarios_of
+from swapcan.scenarios.stage import LEAVING, Left, Stage
 from typedcan.commands.bus_options import bus_name, open_bus, told_once
+from typedcan.drive.listening import listen
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.shell.progress import StatusLine

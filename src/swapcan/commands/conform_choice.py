@@ -10,7 +10,7 @@ from typing import Self
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, Judgement, Rule, judge_log
-from swapcan.conform.live.scenarios import SCENARIOS, scenarios_of
+from swapcan.scenarios.scenarios import SCENARIOS, scenarios_of
 from typedcan.logs.window import Moment
 from typedcan.shell.console import CommandError
 

@@ -6,10 +6,10 @@ import argparse
 import math
 from functools import partial
 
-from swapcan.drive.listening import listen
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
 from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.commands.transcript import JSON_HELP, Transcript
+from typedcan.drive.listening import listen
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import OutputClosedError, count, note, seconds
 

@@ -6,12 +6,12 @@ import argparse
 from functools import partial
 
 from swapcan.commands.driving import add_consent
-from swapcan.drive.driving import LOOK_OUT, Driving
-from swapcan.drive.noting_bus import NotingBus
 from typedcan.commands.bus_options import add_bus_options, is_virtual, open_bus
 from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.commands.transcript import values_text
 from typedcan.commands.values import message_named, message_of
+from typedcan.drive.driving import LOOK_OUT, Driving
+from typedcan.drive.noting_bus import NotingBus
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, note, say
 from typedcan.wire.acting import what_acts

@@ -12,10 +12,9 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
-from swapcan.simulate.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
-from swapcan.simulate.simulation import check
-from swapcan.simulate.standard_faults import FAULTS, able_nodes, planned_fault
-from swapcan.simulate.times import PlanError
+from swapcan.nodes.faults import FAULTS, able_nodes, planned_fault
+from swapcan.nodes.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
+from swapcan.nodes.simulation import check
 from typedcan.commands.bus_options import (
     add_bus_options,
     assignment,
@@ -27,6 +26,7 @@ from typedcan.shell.command_line import Command
 from typedcan.shell.console import say, seconds
 from typedcan.shell.printing import aligned
 from typedcan.shell.process_signals import Interrupts
+from typedcan.simulate.times import PlanError
 
 T = TypeVar("T")
 

@@ -11,17 +11,17 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands.driving import HUNG, LIVE, acting_nodes, who_acts
 from swapcan.commands.simulation_report import SimulationReport
-from swapcan.drive.departure import Departure
-from swapcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
-from swapcan.drive.noting_bus import NotingBus
-from swapcan.drive.reports import departure
-from swapcan.simulate.faults import PlannedFault
-from swapcan.simulate.plan import PlannedStep
-from swapcan.simulate.shared_bus import SharedBus
-from swapcan.simulate.simulation import Simulation
+from swapcan.nodes.departure import departure
+from swapcan.nodes.plan import PlannedStep
+from swapcan.nodes.simulation import Simulation
 from swapcan.wire import Codec
+from typedcan.drive.departure import Departure
+from typedcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
+from typedcan.drive.noting_bus import NotingBus
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
+from typedcan.simulate.faults import PlannedFault
+from typedcan.simulate.shared_bus import SharedBus
 from typedcan.wire.clock import SystemClock
 
 

@@ -25,12 +25,12 @@ from functools import partial
 from typing import Any
 
 from swapcan.node.answers import BatteryInfo
-from swapcan.simulate.shared_bus import SharedBus
-from swapcan.simulate.simulation import Simulation
+from swapcan.nodes.simulation import Simulation
 from typedcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
 from typedcan.node.node import Node
 from typedcan.node.request import Pending
 from typedcan.shell.console import say
+from typedcan.simulate.shared_bus import SharedBus
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged
 from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Fault

@@ -1,0 +1,279 @@
+"""The simulated pack, BMU: measures, switches, charges, answers, and asks for what it needs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from typing import ClassVar
+
+import can
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.messages import (
+    B2V_RQ,
+    B2V_ST0,
+    B2V_ST1,
+    B2V_ST2,
+    B2V_ST3,
+    B2V_ST4,
+    B2V_ST5,
+    B2V_ST6,
+    BMS_TMS_0,
+    TMS_BMS_0,
+    V2B_CMD,
+    AccessoryHvCommand,
+    B2C_Charger,
+    B2V_ElecEnergy,
+    B2V_Temp,
+    B2V_Ucell,
+    C2B_ACStatus,
+    HeatCommand,
+    HvCommand,
+    HvOffRequest,
+    Manufacturer,
+    ThermalMode,
+    VinRequest,
+    WarningLevel,
+)
+from swapcan.node import Node
+from swapcan.nodes import status
+from swapcan.nodes.world import Participant
+from swapcan.plant.alarms import HIGHEST_LEVEL
+from swapcan.plant.battery import Battery
+from swapcan.plant.high_voltage import Command
+from swapcan.plant.pack import (
+    PRECHARGE_FAILURE,
+    STUCK_RELAY,
+    WELDED_RELAY,
+    Pack,
+    PackStatus,
+    Surroundings,
+)
+from swapcan.plant.sensors import (
+    LOW_INSULATION,
+    OVER_TEMPERATURE,
+    OVER_VOLTAGE_CELL,
+    SENSOR_FAILURE,
+)
+from swapcan.transfer import Vin, split_pack_code
+from typedcan.supervise import State
+from typedcan.wire.clock import Clock, SystemClock
+from typedcan.wire.link import Received
+from typedcan.wire.message import Message, SignalState
+
+PACK_CODE = "001PB280SWAPR1EA10000025"
+"""The 24 characters of GB/T 34014 of the simulated pack."""
+
+_STEP = 0.01  # s, the longest that relays are left alone
+_MOST_STEPS = 1000  # after a standstill of the clock's user
+_FRESH = 0.25  # s, five periods of V2B_CMD
+_ASK_AGAIN = {True: 1.0, False: 5.0}  # s between two B2V_RQ, by whether high voltage is to go
+
+_MAKERS: Mapping[type[Message], Callable[[PackStatus], Iterable[Message]]] = {
+    B2V_ST0: status.st0,
+    B2V_ST1: status.st1,
+    B2V_ST2: status.st2,
+    B2V_ST3: status.st3,
+    B2V_ST4: status.st4,
+    B2V_ST5: status.st5,
+    B2V_ST6: status.st6,
+    B2V_Ucell: status.cell_voltages,
+    B2V_Temp: status.probe_temperatures,
+    B2V_ElecEnergy: status.energy,
+    B2C_Charger: status.charger,
+    BMS_TMS_0: status.cooling_unit,
+}
+
+_COMMANDS = {HvCommand.HV_ON: Command.ON, HvCommand.HV_OFF: Command.OFF}
+
+
+class Bmu(Participant):
+    """The BMU with its pack.
+
+    It obeys V2B_CMD that is fresh and whole, charges while a charger is ready and the truck
+    stands, unless ``may_charge`` is False, and tells of one measurement in all messages of a
+    cycle. ``vin`` is empty until the VCU has given it.
+
+    Parameters
+    ----------
+    vehicle
+        The vehicle's bus.
+    clock
+        The system's where none is given.
+    charger
+        The charger's bus; the vehicle's where none is given.
+    seed
+        Of what differs from pack to pack; not of a battery that is given.
+    battery
+        One that is not the usual.
+    """
+
+    name = "BMU"
+    faults: ClassVar[frozenset[str]] = frozenset(
+        {
+            LOW_INSULATION,
+            OVER_TEMPERATURE,
+            OVER_VOLTAGE_CELL,
+            PRECHARGE_FAILURE,
+            SENSOR_FAILURE,
+            STUCK_RELAY,
+            WELDED_RELAY,
+        }
+    )
+
+    def __init__(
+        self,
+        vehicle: can.BusABC,
+        *,
+        clock: Clock | None = None,
+        charger: can.BusABC | None = None,
+        seed: int = 0,
+        battery: Battery | None = None,
+    ) -> None:
+        clock = clock or SystemClock()
+        apart = {C2B_ACStatus} if charger else set[type[Message]]()
+        self.node = Node(PROTOCOL, self.name, vehicle, clock=clock, expect=_expected() - apart)
+        self.charger_node = self.node
+        if charger:
+            self.charger_node = Node(PROTOCOL, self.name, charger, clock=clock, expect=apart)
+        super().__init__(*dict.fromkeys((self.node, self.charger_node)))
+        self._now = clock.now()
+        self.pack = Pack(battery or Battery(seed=seed), self._now, seed=seed)
+        self.vin = ""
+        self.may_charge = True
+        self._command: V2B_CMD | None = None
+        self._command_at = -math.inf
+        self._asked: tuple[bool, bool] | None = None
+        self._asked_at = -math.inf
+        self._send_all()
+        self.node.on(V2B_CMD, self._obey)
+        self.node.on(Vin, self._learn)
+
+    @property
+    def state(self) -> PackStatus:
+        """The pack as the messages of this cycle tell of it."""
+        return self.pack.status
+
+    @property
+    def status(self) -> str:
+        """What it is doing, in words."""
+        now = self.state
+        text = B2V_ST1.FIELDS["bms"].text(now.state)
+        if now.charge.connected:
+            text += f", {B2V_ST1.FIELDS['chg_st'].text(now.charge.state)}"
+        if now.faults.level:
+            text += f", fault level {now.faults.level}"
+        return text
+
+    def step(self, now: float) -> None:
+        """Go on to a time, in seconds of the clock."""
+        began, passed = self._now, now - self._now
+        count = min(math.ceil(passed / _STEP - 1e-6), _MOST_STEPS)
+        around = self._surroundings(now)
+        for number in range(1, count + 1):
+            at = now if number == count else began + passed * number / count
+            self.pack.step(at, around)
+        self._now = max(now, began)
+        self._ask(now)
+
+    def _send_all(self) -> None:
+        """Hand over to the nodes what they send."""
+        for kind, make in _MAKERS.items():
+            node = self.charger_node if kind is B2C_Charger else self.node
+            node.supply(kind, partial(self._make, make))
+        self.node.provide(*status.battery_info(self.pack.battery.layout))
+        self.node.provide(*split_pack_code(PACK_CODE, Manufacturer.CATL))
+
+    def _make(self, make: Callable[[PackStatus], Iterable[Message]]) -> Iterable[Message]:
+        return make(self.state)
+
+    def _obey(self, received: Received[V2B_CMD]) -> None:
+        """Take a command; one whose counter stands still is no fresh one."""
+        stale = any(fault.counter in ("repeated", "invalid") for fault in received.faults)
+        if not stale:
+            self._command = received.message
+            self._command_at = self.node.clock.now()
+
+    def _learn(self, vin: Vin) -> None:
+        self.vin = vin.text
+
+    def _surroundings(self, now: float) -> Surroundings:
+        """What the others say and do."""
+        command = self._command if now - self._command_at <= _FRESH else None
+        charger = self._heard(self.charger_node, C2B_ACStatus)
+        unit = self._heard(self.node, TMS_BMS_0)
+        load = charge = plugged = None
+        if self.line:
+            load, charge, plugged = self.line.load, self.line.charge, self.line.plugged
+        if plugged is False:
+            charger = None  # what it said last no longer counts
+        if charge is None:
+            charge = _number(charger, "current_output")
+        return Surroundings(
+            command=_COMMANDS.get(_hv_command(command), Command.NONE),
+            accessory=bool(command and command.hv_acc_on_off == AccessoryHvCommand.HV_ACC_ON),
+            heating=bool(command and command.heat_on_off == HeatCommand.HEAT_ON),
+            speed=_number(command, "vehicle_speed"),
+            load=load,
+            charger=charger if isinstance(charger, C2B_ACStatus) else None,
+            charge=charge,
+            plugged=charger is not None if plugged is None else plugged,
+            may_charge=self.may_charge,
+            coolant=_coolant(unit),
+            cooling_failed=self._cooling_failed(unit),
+            faults=self.active_faults,
+        )
+
+    def _heard(self, node: Node, kind: type[Message]) -> Message | None:
+        """The message of a kind that came last, unless it is lost."""
+        received = node.last(kind)
+        alive = node.state(kind) in (State.ALIVE, State.LATE)
+        return received.message if received and alive else None
+
+    def _cooling_failed(self, unit: Message | None) -> bool:
+        if isinstance(unit, TMS_BMS_0):
+            return unit.fault_lv in (WarningLevel.LEVEL_2, WarningLevel.LEVEL_3)
+        return self.node.state(TMS_BMS_0) is State.LOST
+
+    def _ask(self, now: float) -> None:
+        """Ask for the VIN until it is known, for high voltage off while a fault is grave."""
+        to_go = self.state.faults.level >= HIGHEST_LEVEL
+        wants = (not self.vin, to_go)
+        again = any(wants) and now - self._asked_at >= _ASK_AGAIN[to_go] - 1e-6
+        if wants == self._asked and not again:
+            return
+        self._asked, self._asked_at = wants, now
+        self.node.set(
+            B2V_RQ(
+                vin=VinRequest.NO_REQUEST_VIN if self.vin else VinRequest.REQUEST_VIN,
+                hv_off=HvOffRequest.REQUEST_HV_OFF if to_go else HvOffRequest.NO_REQUEST_HV_OFF,
+            )
+        )
+
+
+def _expected() -> set[type[Message]]:
+    """What the BMU is to hear all the time."""
+    return {
+        message
+        for message in PROTOCOL.received_by("BMU")
+        if message.PERIOD is not None and message not in PROTOCOL.conditional
+    }
+
+
+def _hv_command(command: V2B_CMD | None) -> HvCommand:
+    """What is commanded; an invalid code is none."""
+    code = command.hv_on_off if command else HvCommand.SIGNAL_INVALID
+    return HvCommand(code)
+
+
+def _number(message: Message | None, field: str) -> float:
+    value = getattr(message, field) if message else 0.0
+    return 0.0 if isinstance(value, SignalState) else float(value)
+
+
+def _coolant(unit: Message | None) -> float | None:
+    """The temperature of the water, None where it does not flow."""
+    if not isinstance(unit, TMS_BMS_0) or unit.work_sts == ThermalMode.OFF:
+        return None
+    return _number(unit, "output_water_temp")
