@@ -153,7 +153,7 @@ def test_the_same_seed_gives_the_same_bytes_at_the_same_times() -> None:
 
 def test_another_process_gives_the_same_bytes_too() -> None:
     digest = (
-        "import hashlib; from simulate.test_scenario import frames_of;"
+        "import hashlib; from nodes.test_scenario import frames_of;"
         "frames = frames_of(3, 3.0, nodes=('BMU', 'VCU', 'CHG', 'TMS', 'BSU'));"
         "print(hashlib.sha256(repr(frames).encode()).hexdigest())"
     )
