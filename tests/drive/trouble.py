@@ -13,8 +13,8 @@ from drive.quick_pack import command_in
 from scenarios.lines import values
 from scenarios.rig import Bench
 
-# Tests replace the scenarios, and a command is imported when it is chosen: with the real ones.
-from swapcan.commands import conform as _conform  # noqa: F401
+# Tests replace the scenarios: what a command imports when it is chosen is to know the real ones.
+from swapcan.commands import conform_choice, conform_lists  # noqa: F401
 from swapcan.conform.text import Text
 from swapcan.messages import V2B_CMD, BmsState, HvCommand, RelayState
 from swapcan.nodes.plan import plan_of
