@@ -34,7 +34,7 @@ from dbcspec.project import load
 from swapcan import Codec, Link, Message
 from swapcan.messages import MESSAGES
 from swapcan.simulate import Battery, Layout, Simulation, plan_of
-from swapcan.simulate.simulated_bus import SimulatedBus
+from typedcan.simulate.simulated_bus import SimulatedBus
 
 _FRAMES = 2000
 _ROUNDS = 15
