@@ -13,6 +13,7 @@ _FOR_ANY_PROTOCOL = {
     "convert": "typedcan",
     "decode": "typedcan",
     "listen": "swapcan",
+    "monitor": "swapcan",
     "plot": "typedcan",
     "send": "swapcan",
 }

@@ -10,7 +10,7 @@ import can
 import cantools
 from cantools.database.can import Database
 
-from swapcan import PROTOCOL
+from swapcan import Codec
 from swapcan.glance.look import PackGlance, PackLook
 from typedcan.monitor.picture import Picture
 from typedcan.monitor.rows import MessageRow, SignalRow
@@ -49,7 +49,7 @@ class Monitored:
 
     def __init__(self) -> None:
         self.clock = SimulatedClock()
-        self.session = Session(Watch(0.0, PROTOCOL, glance=PackGlance()), self.clock)
+        self.session = Session(Watch(0.0, Codec(), glance=PackGlance()), self.clock)
 
     def hear(self, *frames: can.Message) -> None:
         """Let the session hear frames at the times of their timestamps."""

@@ -13,7 +13,7 @@ import pytest
 from can.interfaces.virtual import VirtualBus
 from monitor.monitored import frame
 
-from swapcan import PROTOCOL
+from swapcan import Codec
 from typedcan.monitor.listener import Listener
 from typedcan.monitor.session import Session
 from typedcan.monitor.watch import Watch
@@ -42,7 +42,7 @@ class Breakable(VirtualBus):
 
 def new_session() -> Session:
     clock = SystemClock()
-    return Session(Watch(clock.now(), PROTOCOL), clock)
+    return Session(Watch(clock.now(), Codec()), clock)
 
 
 def test_every_frame_of_a_burst_is_counted_and_recorded(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""`swapcan monitor`: a live bus in a terminal, or as lines where there is none."""
+"""`monitor`: a live bus in a terminal, or as lines where there is none."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from types import FrameType
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.commands import HELP
 from swapcan.commands.monitor_lines import MonitorLines
-from swapcan.glance.look import glance_of
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus
+from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.model.errors import one_line
 from typedcan.monitor.listener import Listener
 from typedcan.monitor.session import Recorded, Session
@@ -35,7 +34,13 @@ _SIGNALS = {"SIGTERM": 143, "SIGHUP": 129}
 """What ends the command as Ctrl-C does, with its exit status."""
 
 
+def command(tool: Tool) -> Command:
+    """The command of a command line."""
+    return tool.command("monitor", _add_arguments, partial(_run, tool))
+
+
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_dbc_option(parser)
     parser.add_argument(
         "--filter",
         default="",
@@ -62,8 +67,10 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     add_bus_options(parser)
 
 
-def _run(options: argparse.Namespace) -> int:
-    show = _show_lines if options.plain or options.json or not _has_terminal() else _view()
+def _run(tool: Tool, options: argparse.Namespace) -> int:
+    plain = options.plain or options.json or not _has_terminal()
+    show = _show_lines if plain else _view(tool.program.split()[-1])
+    codec = tool.codec(options)
     session: Session | None = None
     ended: Recorded | None = None
     try:
@@ -71,9 +78,8 @@ def _run(options: argparse.Namespace) -> int:
             stack.enter_context(_ending_in_order())
             bus = stack.enter_context(open_bus(options))
             clock = SystemClock()
-            watch = Watch(
-                clock.now(), PROTOCOL, glance=glance_of(PROTOCOL), bitrate=options.bitrate
-            )
+            glance = tool.glance(codec.protocol)
+            watch = Watch(clock.now(), codec, glance=glance, bitrate=options.bitrate)
             session = Session(watch, clock)
             stack.callback(session.stop_recording)
             if options.record:
@@ -104,17 +110,17 @@ Show = Callable[[argparse.Namespace, Session, str, Callable[[], bool]], int]
 """Shows a session on a named bus until it is over, and returns the exit status."""
 
 
-def _view() -> Show:
+def _view(program: str) -> Show:
     try:
         from typedcan.monitor.view import run_view
     except ModuleNotFoundError as error:
-        if error.name and error.name.startswith("swapcan"):
+        if error.name and error.name.startswith("typedcan"):
             raise
         raise CommandError(
             "the view needs textual: pip install 'swapcan[monitor]'; --plain prints lines"
         ) from None
     return lambda options, session, bus, is_over: run_view(
-        session, bus, name_filter=options.filter, record_name="swapcan", is_over=is_over
+        session, bus, name_filter=options.filter, record_name=program, is_over=is_over
     )
 
 
@@ -173,15 +179,3 @@ def _ending_in_order() -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-COMMAND = Command(
-    name="monitor",
-    help=HELP["monitor"],
-    examples="""  swapcan monitor -i socketcan -c can0
-  swapcan monitor -i pcan -c PCAN_USBBUS1 -b 250000 --record drive.blf
-  swapcan monitor -i socketcan -c can0 --plain --seconds 60 > watch.txt
-  swapcan monitor -i udp_multicast -c 239.74.163.2 --json --interval 5""",
-    add_arguments=_add_arguments,
-    run=_run,
-)

@@ -1,9 +1,9 @@
-"""What `swapcan monitor` prints where there is no terminal: lines of text, or JSON.
+"""What `monitor` prints where there is no terminal: lines of text, or JSON.
 
 Text has a line for each thing that happens, with the seconds since the start: a message is late,
 lost or alive again, an alarm begins or ends, a frame has a fault (once per interval for each kind
-of each message), a VIN or a pack code is complete, the bus is lost or back. That a signal is
-invalid is not told; JSON has it. At each interval there is a line that sums up.
+of each message), the protocol's glance noticed something, the bus is lost or back. That a signal
+is invalid is not told; JSON has it. At each interval there is a line that sums up.
 
 JSON has one object per interval, one a line, and one at the end if frames came since:
 
@@ -11,27 +11,22 @@ JSON has one object per interval, one a line, and one at the end if frames came 
      "totals": {"seconds": 2.0, "frames": 1680, "messages": 1671, "length": 0, "checksum": 1,
                 "counter": 2, "foreign": 6, "errors": 0, "frames_per_second": 840.2,
                 "load": 0.47, "faults": 3},
-     "messages": [{"name": "B2V_ST2", "frame_id": 411226355, "sender": "BMU",
-                   "receivers": ["VCU"], "state": "alive", "frames": 20, "age": 0.05,
-                   "period": 0.1, "mean": 0.1001, "jitter": 0.0004, "worst": 0.1012,
+     "messages": [{"name": "Motor_Status", "frame_id": 201, "is_extended": false,
+                   "sender": "Motor", "receivers": ["Panel"], "state": "alive", "frames": 20,
+                   "age": 0.05, "period": 0.1, "mean": 0.1001, "jitter": 0.0004, "worst": 0.1012,
                    "faults": {"length": 0, "checksum": 0, "counter repeated": 0, ...},
                    "wrong": 2, "last": {...}}, ...],
-     "pack": {"vin": "", "pack_code": "",
-              "items": {"soc": {"text": "80 %", "value": 80.0, "unit": "%", "mark": ""}, ...},
-              "alarms": [{"message": "B2V_ST1", "signal": "B2V_ST1_Flt_OverTemp",
-                          "title": "Cell temperature too high", "text": "Level 1 ...",
-                          "age": 1.5}]},
-     "cells": {"received": 96, "total": 96, "age": 0.01, "volts": {"1": [3.312, null, ...]}},
+     "alarms": [{"message": "Motor_Status", "signal": "Motor_Heat", "title": "Motor too hot",
+                 "text": "Too hot", "age": 1.5}],
      "foreign": [{"frame_id": 419360512, "is_extended": true, "frames": 6, "age": 0.3}]}
 
 Times are in seconds, ``time`` since the start, ``totals.seconds`` and all counts since counting
 began. ``state`` is "alive", "late", "lost", "never seen", "ended" (what is sent only while asked
 for) or "seen" (what is sent on events). ``mean``, ``jitter`` and ``worst`` are those of the
 measured period, null before there is one. ``wrong`` counts signals that say something is wrong.
-``last`` is the last frame as `swapcan listen --json` prints it, null where there was none.
-``load`` is a share of 1, and an estimate. What nobody has told yet has an empty text and a null
-value; ``mark`` says why not to rely on a value: "invalid", "late", "lost" and the like. A cell is
-its voltage, "Signal Invalid" or "Abnormal", or null where nothing has come.
+``last`` is the last frame as `listen --json` prints it, null where there was none. ``load`` is a
+share of 1, and an estimate; null where the bit rate is not known. A protocol with a glance has what
+that shows in place of ``alarms``, which are among it.
 """
 
 from __future__ import annotations
@@ -41,8 +36,9 @@ from collections import Counter
 from typing import Any
 
 from typedcan.commands.transcript import json_object
+from typedcan.monitor.glance import Seen
 from typedcan.monitor.picture import Picture
-from typedcan.monitor.rows import MessageRow, Seen
+from typedcan.monitor.rows import MessageRow
 from typedcan.monitor.session import Session, SessionEvent, Status
 from typedcan.shell.console import say
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged

@@ -5,6 +5,8 @@ from __future__ import annotations
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from typedcan.commands.tool import Tool, reading_tables
+from typedcan.monitor.glance import Glance
+from typedcan.wire.protocol import Protocol
 
 _LOG_STATUS = "exit status: 0 all is well, 2 the command could not do its work, 3"
 
@@ -27,6 +29,10 @@ read of it is drawn""",
     "listen": """  swapcan listen -i socketcan -c can0
   swapcan listen -i pcan -c PCAN_USBBUS1 -b 250000 --json --seconds 10
   swapcan listen -i udp_multicast -c 239.74.163.2 --count 1""",
+    "monitor": """  swapcan monitor -i socketcan -c can0
+  swapcan monitor -i pcan -c PCAN_USBBUS1 -b 250000 --record drive.blf
+  swapcan monitor -i socketcan -c can0 --plain --seconds 60 > watch.txt
+  swapcan monitor -i udp_multicast -c 239.74.163.2 --json --interval 5""",
     "send": """  swapcan send B2V_ST2 soc=80 current=-120.5 -i socketcan -c can0
   swapcan send B2V_ST1 'bms=HV closed' -i pcan -c PCAN_USBBUS1 -b 250000
   swapcan send V2B_CMD V2B_CMD_HV_OnOff=hv_off -i udp_multicast -c 239.74.163.2
@@ -38,11 +44,19 @@ until its receiver's own timeout, which the standard does not give, or the next 
 high voltage off at speed opens contactors under load.""",
 }
 
+
+def _glance(protocol: Protocol) -> Glance | None:
+    from swapcan.glance.look import glance_of  # the monitor alone needs it
+
+    return glance_of(protocol)
+
+
 TOOL = Tool(
     program="swapcan",
     own=lambda _: PROTOCOL,
     help=HELP,
     examples=_EXAMPLES,
     tables=reading_tables(PROTOCOL),
+    glance=_glance,
 )
 """The `swapcan` command line."""

@@ -11,8 +11,7 @@ from swapcan.glance.cells import CellMap, Cells
 from swapcan.glance.pack import Pack, pack_of
 from swapcan.messages import B2V_ST1, B2V_BattInfo2, B2V_Ucell
 from swapcan.transfer import CellVoltages, Outcome, PackCode, ProbeTemperatures, Transfers, Vin
-from typedcan.monitor.glance import Known, Noticed
-from typedcan.monitor.rows import Alarm
+from typedcan.monitor.glance import Alarm, Known, Noticed
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef, Protocol
 

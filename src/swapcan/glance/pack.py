@@ -17,8 +17,8 @@ from swapcan.messages import (
     V2B_CMD,
     B2V_BattInfo1,
 )
-from typedcan.monitor.glance import Known
-from typedcan.monitor.rows import LATE, LOST, Seen, mark_of
+from typedcan.monitor.glance import Known, Seen
+from typedcan.monitor.rows import LATE, LOST, mark_of
 from typedcan.wire.message import LabelledField, Message, Value
 from typedcan.wire.protocol import Protocol
 

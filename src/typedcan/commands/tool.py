@@ -9,6 +9,7 @@ from pathlib import Path
 
 from typedcan.model import protocol as model
 from typedcan.model.transfers.readings import ReadingsByGroup
+from typedcan.monitor.glance import Glance
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
@@ -34,6 +35,8 @@ class Tool:
         What each command does, in a line, and examples of it.
     tables
         By name of a transfer, what the table of its readings and one reading are called.
+    glance
+        Gives what the monitor shows of a protocol beside messages and signals, None for nothing.
     """
 
     program: str
@@ -41,6 +44,7 @@ class Tool:
     help: Mapping[str, str]
     examples: Mapping[str, str]
     tables: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    glance: Callable[[Protocol], Glance | None] = field(default=lambda _: None)
 
     def command(
         self,

@@ -7,9 +7,30 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 from typing import Protocol as Shape
 
-from typedcan.monitor.rows import Alarm, Seen
+from typedcan.wire.link import Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef
+
+
+class Seen(NamedTuple):
+    """A message that came, and the second at which it did."""
+
+    received: Received[Message]
+    at: float
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """A signal that says something is wrong.
+
+    ``text`` is the label of its code, ``age`` the seconds for which it has said so.
+    """
+
+    message: str
+    signal: str
+    title: str
+    text: str
+    age: float
 
 
 @dataclass(frozen=True, slots=True)

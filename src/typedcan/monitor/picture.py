@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from typedcan.monitor.glance import Look
-from typedcan.monitor.rows import Alarm, MessageRow, Seen, SignalRow, identifier_text, signal_rows
+from typedcan.monitor.glance import Alarm, Look, Seen
+from typedcan.monitor.rows import MessageRow, SignalRow, identifier_text, signal_rows
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
+from typedcan.monitor.glance import Seen
 from typedcan.supervise.events import SignalKind, State
 from typedcan.supervise.signal_watch import Judge, watched_fields
 from typedcan.supervise.snapshot import MessageSnapshot
-from typedcan.wire.link import Received
 from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState, Value
 from typedcan.wire.protocol import Protocol
 
@@ -21,13 +21,6 @@ ENDED = "ended"
 SEEN = "seen"
 
 _ENDED_PERIODS = 5
-
-
-class Seen(NamedTuple):
-    """A message that came, and the second at which it did."""
-
-    received: Received[Message]
-    at: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,20 +111,6 @@ def _state(kind: type[Message], known: MessageSnapshot, protocol: Protocol) -> s
         if kind in protocol.conditional and known.age > _ENDED_PERIODS * kind.PERIOD:
             return ENDED
     return str(known.state)
-
-
-@dataclass(frozen=True, slots=True)
-class Alarm:
-    """A signal that says something is wrong.
-
-    ``text`` is the label of its code, ``age`` the seconds for which it has said so.
-    """
-
-    message: str
-    signal: str
-    title: str
-    text: str
-    age: float
 
 
 @dataclass(frozen=True, slots=True)

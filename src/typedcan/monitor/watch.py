@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator
 import can
 
 from typedcan.monitor.bus_load import BusLoad
-from typedcan.monitor.glance import Glance, Known, Noticed
+from typedcan.monitor.glance import Alarm, Glance, Known, Noticed, Seen
 from typedcan.monitor.picture import ForeignRow, Picture, Totals
-from typedcan.monitor.rows import Alarm, Seen, message_row
+from typedcan.monitor.rows import message_row
 from typedcan.supervise import SupervisionEvent, Supervisor
 from typedcan.supervise.snapshot import MessageSnapshot
 from typedcan.wire.codec import Codec
@@ -36,10 +36,10 @@ class Watch:
     ----------
     now
         When watching begins.
-    protocol, codec
-        Whose messages, and what decodes them.
+    codec
+        What decodes the messages, those of its protocol.
     glance
-        What else is shown of this protocol, None where nothing is.
+        What else is shown of the protocol, None where nothing is.
     bitrate
         Of the bus, for the estimate of its load; without it that of all buses of the protocol.
     """
@@ -47,16 +47,15 @@ class Watch:
     def __init__(
         self,
         now: float,
-        protocol: Protocol,
+        codec: Codec,
         *,
-        codec: Codec | None = None,
         glance: Glance | None = None,
         bitrate: float | None = None,
     ) -> None:
-        self.protocol = protocol
+        self.protocol = codec.protocol
         self._glance = glance
-        self._bitrate = bitrate or _bitrate_of(protocol)
-        self._receiver = Receiver(codec or Codec(protocol))
+        self._bitrate = bitrate or _bitrate_of(codec.protocol)
+        self._receiver = Receiver(codec)
         self._last: dict[type[Message], Seen] = {}
         self.clear(now)
 

@@ -10,8 +10,9 @@ from textual.app import ComposeResult
 from textual.containers import Vertical, VerticalScroll
 from textual.widgets import DataTable, Static
 
+from typedcan.monitor.glance import Alarm
 from typedcan.monitor.picture import Picture
-from typedcan.monitor.rows import Alarm, MessageRow, SignalRow
+from typedcan.monitor.rows import MessageRow, SignalRow
 from typedcan.monitor.view.columns import SIGNAL_COLUMNS, Column, message_columns, ordered
 from typedcan.monitor.view.styles import ALERT, age, milliseconds, state_text
 from typedcan.monitor.view.table import Table
