@@ -13,7 +13,7 @@ _FOR_ANY_PROTOCOL = {
     "convert": "typedcan",
     "decode": "typedcan",
     "listen": "swapcan",
-    "monitor": "swapcan",
+    "monitor": "typedcan",
     "plot": "typedcan",
     "send": "swapcan",
 }

@@ -16,7 +16,7 @@ import pytest
 from monitor.monitored import frame
 
 from swapcan import cli
-from swapcan.commands import monitor
+from typedcan.commands import monitor
 
 
 @pytest.fixture

@@ -16,8 +16,8 @@ from types import FrameType
 
 import can
 
-from swapcan.commands.monitor_lines import MonitorLines
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus
+from typedcan.commands.monitor_lines import MonitorLines
 from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.model.errors import one_line
 from typedcan.monitor.listener import Listener
