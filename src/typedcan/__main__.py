@@ -18,12 +18,14 @@ _HELP = {
     "plot": "draw signals of a log file over time",
     "send": "send one message; what is not given goes out as invalid, or 0 if that is idle",
     "listen": "print the messages on a bus as they arrive, until Ctrl-C",
+    "monitor": "watch a bus in the terminal: messages with their periods, and signals",
 }
 
 _EXAMPLES = """examples:
   python -m typedcan --dbc truck.dbc decode drive.blf
   python -m typedcan --dbc truck.dbc convert drive.blf -o drive.parquet
   python -m typedcan --protocol acme.can listen -i socketcan -c can0
+  python -m typedcan --dbc truck.dbc monitor -i socketcan -c can0
   python -m typedcan --protocol acme.can send Engine_Status speed=1200 -i virtual -c 0
 
 exit status: 0 all is well, 2 the command could not do its work, 3 a log is damaged: what could be
@@ -36,6 +38,9 @@ _COMMAND_EXAMPLES = {
   python -m typedcan --dbc truck.kcd convert drive.asc -o drive.csv --raster 100ms""",
     "plot": """  python -m typedcan --dbc truck.dbc plot drive.blf --signals Speed -o speed.html""",
     "listen": """  python -m typedcan --dbc truck.dbc listen -i socketcan -c can0 --seconds 10""",
+    "monitor": """  python -m typedcan --dbc truck.dbc monitor -i socketcan -c can0
+  python -m typedcan --protocol acme.can monitor -i socketcan -c can0 --record drive.blf
+  python -m typedcan --dbc truck.dbc monitor -i socketcan -c can0 --json --interval 5""",
     "send": """  python -m typedcan --dbc truck.dbc send Engine_Status speed=1200 -i virtual -c 0
 
 A database does not say which codes make something move: on a bus that is not virtual nothing of

@@ -45,11 +45,12 @@ def frame(name: str, at: float, **signals: float) -> can.Message:
 
 
 class Monitored:
-    """A session, and the time that it lives in."""
+    """A session, of this standard unless said otherwise, and the time that it lives in."""
 
-    def __init__(self) -> None:
+    def __init__(self, watch: Watch | None = None) -> None:
         self.clock = SimulatedClock()
-        self.session = Session(Watch(0.0, Codec(), glance=PackGlance()), self.clock)
+        watch = watch or Watch(0.0, Codec(), glance=PackGlance())
+        self.session = Session(watch, self.clock)
 
     def hear(self, *frames: can.Message) -> None:
         """Let the session hear frames at the times of their timestamps."""

@@ -1,0 +1,43 @@
+"""A second protocol, known by its DBC alone: 11 bits and 29, with and without periods."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import can
+import cantools
+from cantools.database.can import Database
+from monitor.monitored import Monitored
+
+from typedcan.databases.dbc import read_database
+from typedcan.monitor.watch import Watch
+from typedcan.wire.codec import Codec
+from typedcan.wire.dynamic import typed_protocol
+
+MACHINE = Path(__file__).with_name("machine.dbc")
+CODEC = Codec(typed_protocol(read_database(MACHINE)))
+
+
+@cache
+def _dbc() -> Database:
+    database = cantools.database.load_file(MACHINE)
+    assert isinstance(database, Database)
+    return database
+
+
+def frame(name: str, at: float = 0.0, **signals: float) -> can.Message:
+    """A frame of a message, by cantools; it has one signal or two, and the others are 0."""
+    message = _dbc().get_message_by_name(name)
+    values = {signal.name: signal.offset for signal in message.signals} | signals
+    return can.Message(
+        arbitration_id=message.frame_id,
+        is_extended_id=message.is_extended_frame,
+        data=message.encode(values),
+        timestamp=at,
+    )
+
+
+def machine(bitrate: float | None = None) -> Monitored:
+    """A session that watches the machine from 0 s on."""
+    return Monitored(Watch(0.0, CODEC, bitrate=bitrate))
