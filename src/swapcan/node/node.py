@@ -71,7 +71,7 @@ class Node(node.Node):
         stay as they were last. Raises `RequestError` where this node has no such request, or has
         it under way.
         """
-        return self.request("VIN", V2B_VIN, TransferCollector(VinAssembler()), timeout, again)
+        return self.ask("VIN", V2B_VIN, TransferCollector(VinAssembler()), timeout, again)
 
     def request_pack_code(self, timeout: float = 5.0, *, again: float = 1.0) -> Pending[PackCode]:
         """Ask for the code of the pack; see `request_vin`.
@@ -79,11 +79,11 @@ class Node(node.Node):
         The pack sends it every second, and it counts once it has come twice the same.
         """
         collector = TransferCollector(PackCodeAssembler())
-        return self.request("pack code", B2V_SysCode1, collector, timeout, again)
+        return self.ask("pack code", B2V_SysCode1, collector, timeout, again)
 
     def request_battery_info(
         self, timeout: float = 5.0, *, again: float = 1.0
     ) -> Pending[BatteryInfo]:
         """Ask what the pack is made of; see `request_vin`."""
         collector = BatteryInfoCollector()
-        return self.request("battery info", B2V_BattInfo1, collector, timeout, again)
+        return self.ask("battery info", B2V_BattInfo1, collector, timeout, again)

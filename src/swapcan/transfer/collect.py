@@ -43,9 +43,9 @@ class Transfers(transfer.Transfers):
         super().__init__(
             protocol,
             {
-                VIN.name: checked_vin if check_vin else any_vin,
-                PACK_CODE.name: pack_code,
-                CELL_VOLTAGES.name: cell_voltages,
-                PROBE_TEMPERATURES.name: probe_temperatures,
+                VIN.name: (Vin, checked_vin if check_vin else any_vin),
+                PACK_CODE.name: (PackCode, pack_code),
+                CELL_VOLTAGES.name: (CellVoltages, cell_voltages),
+                PROBE_TEMPERATURES.name: (ProbeTemperatures, probe_temperatures),
             },
         )

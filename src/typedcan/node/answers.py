@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Generic, Protocol, TypeVar
 
-from typedcan.transfer import Problem
-from typedcan.wire.message import Message
+from typedcan.transfer import Assembler, Problem
+from typedcan.wire.message import Message, MessageT
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
@@ -23,16 +23,19 @@ class Collector(Protocol[T_co]):
         ...
 
 
-class Assembler(Protocol[T_co]):
-    """What puts a transfer together."""
+class MessageCollector(Generic[MessageT]):
+    """Waits for a message."""
 
-    def take(self, message: Message, at: float) -> tuple[T_co | Problem, ...]:
-        """What a message brings about."""
-        ...
+    def __init__(self, kind: type[MessageT]) -> None:
+        self._kind = kind
+
+    def take(self, message: Message, at: float) -> MessageT | None:  # noqa: ARG002 - a Collector
+        """The message, if it is the one that is waited for."""
+        return message if isinstance(message, self._kind) else None
 
     def missing(self) -> str:
-        """What still lacks for a result."""
-        ...
+        """That it has not come."""
+        return f"{self._kind.NAME} has not come"
 
 
 class TransferCollector(Generic[T]):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from typedcan.supervise import SupervisionEvent
-from typedcan.transfer import Problem
+from typedcan.transfer import Problem, Value
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 
@@ -96,6 +96,7 @@ Event = (
     | Fault
     | SupervisionEvent
     | Problem
+    | Value
     | BusLost
     | BusBack
     | SendFailed
@@ -103,7 +104,7 @@ Event = (
     | NodeFailed
     | Overrun
 )
-"""All that a node tells, beside the results of its transfers."""
+"""All that a node tells; results of its transfers can have classes of their own."""
 
 
 class Stream:

@@ -11,7 +11,7 @@ from typedcan.node.events import Dispatcher
 from typedcan.supervise import Supervisor
 from typedcan.supervise.events import State
 from typedcan.supervise.snapshot import Snapshot
-from typedcan.transfer import Transfers
+from typedcan.transfer import Blocks, Readings, Text, Transfers
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message
@@ -50,7 +50,7 @@ class Inbox:
         self._emit = dispatcher.emit
         self._own = frozenset(kind.FRAME_ID for kind in protocol.sent_by(name))
         self._transfers = transfers
-        self._in_transfers = _in_transfers(protocol)
+        self._in_transfers = transfers.messages
         self._hearers = hearers
         self._last: dict[type[Message], Received[Message]] = {}
         self._lock = threading.Lock()
@@ -126,7 +126,8 @@ class Inbox:
         if kind in self._in_transfers:
             with self._lock:
                 outcomes = self._transfers.take(received.message, now)
-            self._emit_all(outcomes)
+            for outcome in outcomes:
+                self._emit(outcome, _kind_of(outcome))
         if kind in self._hearers:
             for hearer in self._hearers[kind]:
                 hearer(received, now)
@@ -137,10 +138,8 @@ class Inbox:
             self._emit(event)
 
 
-def _in_transfers(protocol: Protocol) -> frozenset[type[Message]]:
-    """The messages that say something about a transfer."""
-    kinds: set[type[Message]] = set()
-    for transfer in protocol.transfers:
-        totals = (transfer.count_field, transfer.groups_field)
-        kinds.update(transfer.messages, (ref.message for ref in totals if ref))
-    return frozenset(kinds)
+def _kind_of(outcome: object) -> type | None:
+    """The class of values that a result is one of, where it has a class of its own."""
+    kinds = (kind for kind in (Text, Readings, Blocks) if isinstance(outcome, kind))
+    kind = next(kinds, None)
+    return None if kind is type(outcome) else kind

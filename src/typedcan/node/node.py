@@ -7,7 +7,7 @@ from typing import Any, TypeVar, overload
 
 import can
 
-from typedcan.node.answers import Collector
+from typedcan.node.answers import Collector, MessageCollector, TransferCollector
 from typedcan.node.cycles import Maker
 from typedcan.node.engine import Engine, Leave
 from typedcan.node.request import Pending
@@ -65,7 +65,8 @@ class Node(Running):
         voltage on: "safe" sends the safe codes first, as long as the bus takes them; "silent", for
         tests of how others take it, just ends.
     transfers
-        What puts values of several frames together, if anything is to.
+        What puts values of several frames together; those of the protocol's transfers if none is
+        given.
     """
 
     def __init__(
@@ -97,6 +98,7 @@ class Node(Running):
             # Frames have the system's time, which means nothing to any other clock.
             timestamps=isinstance(self.clock, SystemClock),
         )
+        self._transfers = transfers or Transfers(protocol)
         self._engine = Engine(
             protocol,
             name,
@@ -106,7 +108,7 @@ class Node(Running):
             supervisor=supervisor,
             reopen=reopen,
             leave=leave,
-            transfers=transfers or Transfers(protocol, {}),
+            transfers=self._transfers,
         )
         self._outbox = self._engine.outbox
         self._inbox = self._engine.inbox
@@ -209,7 +211,43 @@ class Node(Running):
 
     # Requests
 
+    @overload
     def request(
+        self, what: type[MessageT], *, timeout: float = 5.0, again: float = 1.0
+    ) -> Pending[MessageT]: ...
+    @overload
+    def request(
+        self, what: str, kind: type[AnswerT], *, timeout: float = 5.0, again: float = 1.0
+    ) -> Pending[AnswerT]: ...
+    @overload
+    def request(self, what: str, *, timeout: float = 5.0, again: float = 1.0) -> Pending[Any]: ...
+    def request(
+        self,
+        what: type[Message] | str,
+        kind: type[Any] | None = None,
+        *,
+        timeout: float = 5.0,
+        again: float = 1.0,
+    ) -> Pending[Any]:
+        """Ask for a message, or for the transfer of a name, such as ``request("serial", Text)``.
+
+        The answer is the message, or the value of the transfer, of which ``kind`` is the class.
+        The request is repeated every ``again`` seconds until it is answered, and withdrawn then,
+        after ``timeout`` seconds, or when it is cancelled. Other fields of the message that asks
+        stay as they were last. Raises `RequestError` where this node has no such request, has it
+        under way, or the transfer is no ``kind``; `LookupError` for a name that there is not, and
+        `TransferError` for a transfer that cannot be put together.
+        """
+        if not isinstance(what, str):
+            return self.ask(what.NAME, what, MessageCollector(what), timeout, again)
+        assembler = self._transfers.assembler(what)
+        result = self._transfers.result_of(what)
+        if kind is not None and not issubclass(result, kind):
+            raise RequestError(f"{what} is {result.__name__}, not {kind.__name__}")
+        collector: Collector[Any] = TransferCollector(assembler)
+        return self.ask(what, assembler.transfer.messages[0], collector, timeout, again)
+
+    def ask(
         self,
         name: str,
         answer: type[Message],
@@ -217,12 +255,9 @@ class Node(Running):
         timeout: float = 5.0,
         again: float = 1.0,
     ) -> Pending[AnswerT]:
-        """Ask for a message that answers a request of this node's; ``name`` is for people.
+        """As `request`, but ``collector`` puts the answer together, whatever it is.
 
-        The request is repeated every ``again`` seconds until ``collector`` has put the answer
-        together, and withdrawn then, after ``timeout`` seconds, or when it is cancelled. Other
-        fields of the message that asks stay as they were last. Raises `RequestError` where this
-        node has no such request, or has it under way.
+        ``answer`` is a message of it, and ``name`` what it is for people.
         """
         self._outbox.check_open()
         for request in self.protocol.requests:

@@ -21,15 +21,15 @@ from typedcan.wire.protocol import Protocol, Transfer
 Value = Text | Readings | Blocks
 """What a transfer of one of the kinds is when it is complete."""
 
-ResultT = TypeVar("ResultT")
+ResultT_co = TypeVar("ResultT_co", covariant=True)
 
-Make = Callable[[Any], ResultT | Problem]
+Make = Callable[[Any], ResultT_co | Problem]
 """Makes a result, or a problem, of a value of the transfer's kind."""
 
 _Read = Callable[[Message], tuple[Any, ...]]
 
 
-class Assembler(Generic[ResultT]):
+class Assembler(Generic[ResultT_co]):
     """Puts one transfer together; one thread at a time.
 
     Parameters
@@ -48,7 +48,7 @@ class Assembler(Generic[ResultT]):
     def __init__(
         self,
         transfer: Transfer,
-        make: Make[ResultT] | None = None,
+        make: Make[ResultT_co] | None = None,
         *,
         timeout: float | None = None,
         rounds: int | None = None,
@@ -79,7 +79,7 @@ class Assembler(Generic[ResultT]):
         """Frames that came again before the set was complete."""
         return self._rules.duplicates
 
-    def take(self, message: Message, at: float) -> tuple[ResultT | Problem, ...]:
+    def take(self, message: Message, at: float) -> tuple[ResultT_co | Problem, ...]:
         """What a message brings about: a result, problems, or neither.
 
         Messages of other transfers bring nothing about. ``at`` is the time in seconds.
@@ -113,13 +113,17 @@ class Transfers:
     ----------
     protocol
         Whose transfers. One that does not fit its kind is passed over; `missing` says why.
-    makers
-        What becomes of the values of some, by the names of the transfers; the others are told as
-        the values of their kinds.
+    results
+        By the names of some transfers, the class of their results, and what makes one of a value;
+        results of the others are the values of their kinds.
     """
 
-    def __init__(self, protocol: Protocol, makers: Mapping[str, Make[Any]] | None = None) -> None:
-        self._makers = makers or {}
+    def __init__(
+        self,
+        protocol: Protocol,
+        results: Mapping[str, tuple[type[Any], Make[Any]]] | None = None,
+    ) -> None:
+        self._results = results or {}
         self._protocol = protocol
         self._unfit = {each.name: unfit(each) for each in protocol.transfers}
         self.assemblers: Mapping[str, Assembler[Any]] = MappingProxyType(
@@ -147,7 +151,15 @@ class Transfers:
 
         Raises `LookupError` for a name that there is not, and `TransferError`.
         """
-        return Assembler(self._protocol.transfer(name), self._makers.get(name))
+        _, make = self._results.get(name, (None, None))
+        return Assembler(self._protocol.transfer(name), make)
+
+    def result_of(self, name: str) -> type[Any]:
+        """The class of the results of the transfer of that name; raises `LookupError`."""
+        if name in self._results:
+            return self._results[name][0]
+        kind: type[Any] = KINDS[self.assemblers[name].transfer.parts.transfer.kind].value
+        return kind
 
     def take(self, message: Message, at: float) -> tuple[Any, ...]:
         """What a message brings about: results, problems, or neither; any message will do.

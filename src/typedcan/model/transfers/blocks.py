@@ -62,6 +62,7 @@ class NumberedBlocks(Kind):
 
     name = "numbered_blocks"
     purpose = "data in numbered frames of one message"
+    value = Blocks
     takes: ClassVar[frozenset[str]] = frozenset(
         {
             *("frame_number", "first_number", "count", "count_signal", "counted"),

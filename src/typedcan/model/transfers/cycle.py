@@ -144,11 +144,14 @@ class Cycle(Generic[PieceT]):
         if before < 0:
             return Outcome.FOREIGN
         highest = before + within
-        if not within and before >= shape.limit(group):
-            return Outcome.KEPT
+        if before >= shape.limit(group):
+            if not within:
+                return Outcome.KEPT
+            if shape.is_fixed:
+                return Outcome.FOREIGN
         if within and highest > shape.known(group) and shape.see(group, highest):
             if shape.is_contradicted:
-                self.surplus = max(shape.seen, highest)
+                self.surplus = shape.seen
                 self.reset()
                 return Outcome.CONTRADICTED
             self.version += 1

@@ -125,6 +125,9 @@ class Kind(ABC):
     purpose: ClassVar[str]
     """What it is for, in a few words."""
 
+    value: ClassVar[type]
+    """What a value of it is."""
+
     takes: ClassVar[frozenset[str]]
     """The parameters that mean something to it, beside those of every kind."""
 

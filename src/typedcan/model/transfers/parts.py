@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from typedcan.model.protocol import Message, Protocol, Signal
+from typedcan.model.signal_state import SignalState
 from typedcan.model.transfer import Transfer
 
 EVENT_TIMEOUT = 1.0
@@ -27,6 +28,17 @@ class Part(NamedTuple):
         while highest in (signal.invalid_code, signal.abnormal_code):
             highest -= 1
         return highest
+
+    def value_of(self, raw: int) -> float | SignalState:
+        """What the signal holds where its bits are ``raw``."""
+        signal = self.signal
+        if raw == signal.invalid_code:
+            return SignalState.INVALID
+        if raw == signal.abnormal_code:
+            return SignalState.ABNORMAL
+        if self.is_whole_number:
+            return raw
+        return float(raw * signal.factor + signal.offset)
 
     @property
     def is_whole_number(self) -> bool:

@@ -208,9 +208,10 @@ class ReadingRules(Rules):
         return self._problem("number", text, at)
 
     def _contradiction(self, cycle: Cycle[tuple[Any, ...]], at: float) -> Problem:
-        teller = f"{self._totals} counts" if self._totals else "there are"
         count = self._known.count if self._known else 0
-        text = f"{cycle.surplus} readings have come, {teller} {count}"
+        text = f"more readings have come than the {count} that there are"
+        if cycle.surplus > count:
+            text = f"{cycle.surplus} readings have come, {self._totals} counts {count}"
         return self._problem("totals", text, at)
 
     def _problem(self, kind: ProblemKind, text: str, at: float) -> Problem:

@@ -28,6 +28,7 @@ class ReadingsByGroup(Kind):
 
     name = "readings_by_group"
     purpose = "measured values of many sensors, group by group, in numbered frames"
+    value = Readings
     takes: ClassVar[frozenset[str]] = frozenset(
         {
             *("frame_number", "first_number", "numbering", "group", "first_group"),
@@ -116,10 +117,8 @@ def _split_group(
 
 def _fill_of(parts: Parts, part: Part) -> Reading:
     """What an item holds that is not used."""
-    fill, signal = parts.transfer.fill, part.signal
-    if fill is None:
-        return SignalState.INVALID
-    return float(fill * signal.factor + signal.offset)
+    fill = parts.transfer.fill
+    return SignalState.INVALID if fill is None else part.value_of(fill)
 
 
 def _bad_counts(parts: Parts) -> Iterator[Unfit]:

@@ -118,12 +118,13 @@ def split_items(parts: Parts, items: Sequence[Any], details: Mapping[str, Any]) 
     done = 0
     for slot in slots:
         own = (*slot.used, *slot.unused)
-        values = dict.fromkeys((part.signal.name for part in own), transfer.fill)
-        here = zip(own, items[done:], strict=False)
-        values.update({part.signal.name: item for part, item in here})
-        values.update(_facts(parts, slot, told, len(items), details))
-        given = {name: value for name, value in values.items() if value is not None}
-        frames.append(Frame(slot.message, given))
+        values: dict[str, Any] = dict(_facts(parts, slot, told, len(items), details))
+        for place, part in enumerate(own, done):
+            if place < len(items):
+                values[part.signal.name] = items[place]
+            elif transfer.fill is not None:
+                values[part.signal.name] = part.value_of(transfer.fill)
+        frames.append(Frame(slot.message, values))
         done += len(own)
     return frames
 

@@ -21,6 +21,9 @@ class Shape(Protocol):
     forgettable: bool
     """Whether after a silence it has to be found out anew by who made it."""
 
+    is_fixed: bool
+    """Whether a frame beyond the readings of its group is none that there is."""
+
     @property
     def is_certain(self) -> bool:
         """Whether the numbers are known, not taken to be."""
@@ -75,6 +78,7 @@ class TotalsShape(Shape):
     """
 
     forgettable = False
+    is_fixed = False
 
     def __init__(self, totals: Totals) -> None:
         self.totals = totals
@@ -162,6 +166,7 @@ class FixedShape(Shape):
         forgettable: bool = False,
     ) -> None:
         self.forgettable = forgettable
+        self.is_fixed = not forgettable
         self._counts = dict(counts)
         self._before = dict(before or {})
         self._most = surplus

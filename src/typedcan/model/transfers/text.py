@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal
 
@@ -62,6 +63,7 @@ class Text:
 class TextKind(Kind):
     """What both kinds of texts have in common."""
 
+    value = Text
     takes: ClassVar[frozenset[str]] = frozenset(
         {"count", "length", "length_signal", "fill", "encoding", "details", "rounds"}
     )
@@ -139,12 +141,13 @@ class _Maker:
         self._items = parts.items
         self._tables = [] if parts.transfer.encoding else _tables(parts)
         self._encoding = parts.transfer.encoding or "ascii"
-        self._fill = parts.transfer.fill if parts.transfer.length is Ending.TO_FILL else None
+        fill = parts.transfer.fill if parts.transfer.length is Ending.TO_FILL else None
+        self._ends = () if fill is None else tuple(part.value_of(fill) for part in parts.items)
 
     def __call__(self, items: Sequence[Any], details: Mapping[str, Any], at: float) -> Text | Wrong:
         """The text, or what is wrong with it."""
-        if self._fill in items:
-            items = items[: items.index(self._fill)]
+        if self._ends:
+            items = [*takewhile(lambda item: item not in self._ends, items)]
         text = self._labelled(items) if self._tables else self._decoded(items)
         if isinstance(text, tuple):
             return text
