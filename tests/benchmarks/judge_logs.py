@@ -25,10 +25,10 @@ from conform.recorded import block_of, recorded
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, judge_log
-from swapcan.conform.chunk import Chunk, LogEnd
-from swapcan.conform.findings import Findings
-from swapcan.conform.rule import Rule, Watcher
 from swapcan.log_protocol import OWN
+from typedcan.judge.chunk import Chunk, LogEnd
+from typedcan.judge.findings import Findings
+from typedcan.judge.rule import Rule, Watcher
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.plan import Mode

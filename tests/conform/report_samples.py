@@ -18,12 +18,12 @@ from swapcan.conform import (
     Subject,
     Tolerance,
 )
-from swapcan.conform.chunk import Chunk
-from swapcan.conform.measure.load import Load
-from swapcan.conform.measure.periods import Periods
-from swapcan.conform.report.moments import Moment, Track
-from swapcan.conform.rule import Watcher
-from swapcan.conform.text import Text
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.measure.load import Load
+from typedcan.judge.measure.periods import Periods
+from typedcan.judge.report.moments import Moment, Track
+from typedcan.judge.rule import Watcher
+from typedcan.report.language import Text
 
 BEGIN = 1_700_000_000.0
 """2023-11-14 22:13:20 UTC."""

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from conform.handmade import Bench, Sketch, at, every
 
-from swapcan.conform.rules.charging import RULES
+from swapcan.rules.charging import RULES
 
 START, STOP = 0, 1
 WITHOUT_CURRENT = 10000  # raw: 0 A

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from conform.handmade import Bench, Sketch, at, every
 
-from swapcan.conform.rules.cooling import RULES
+from swapcan.rules.cooling import RULES
 
 OFF, COOLING, HEATING, CIRCULATION = 0, 1, 2, 3
 HV_ON, HV_OFF = 0, 1

@@ -13,7 +13,7 @@ from conform.in_blocks import ALL, candump, found, result_of
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Status, rule_of
-from swapcan.conform.rules.frames.reserved_bits import reserved_masks
+from typedcan.judge.rules.frames.reserved_bits import reserved_masks
 
 CASES = Path(__file__).with_name("cases")
 SPEC = Path(__file__).parents[2] / "spec" / "messages.yaml"

@@ -23,14 +23,14 @@ from swapcan.conform import (
     Verdict,
     judge_log,
 )
-from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import KEPT, Findings, Occurrence
-from swapcan.conform.rule import Watcher
-from swapcan.conform.series import latest
-from swapcan.conform.text import Text
 from swapcan.messages import B2V_ST0, B2V_ST1, B2V_ST2
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import KEPT, Findings, Occurrence
+from typedcan.judge.rule import Watcher
+from typedcan.judge.series import latest
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.read import open_log
+from typedcan.report.language import Text
 
 PLAN = "hv_on@0.5s, ask@1s, drive@2s+8s, charge@14s+8s, hv_off@26s"
 SOC = Text("SOC is {soc}", "SOC 为 {soc}")

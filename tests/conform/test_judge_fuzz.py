@@ -12,7 +12,7 @@ from conform.recorded import block_of, recorded
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Judge, Judgement
-from swapcan.conform.report import to_csv, to_html, to_json, to_junit
+from typedcan.judge.report import to_csv, to_html, to_json, to_junit
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.read.blocks import rows_of
 

@@ -11,8 +11,8 @@ from conform.recorded import recorded, written
 from dbcspec.load.analysis import analyse
 from dbcspec.load.traffic import Scenario, Size
 from swapcan.conform import judge_log
-from swapcan.conform.measure.load import Load
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
+from typedcan.judge.measure.load import Load
 from typedcan.model.protocol import Protocol
 
 BIT_RATE = 250_000

@@ -15,9 +15,9 @@ from conform.in_blocks import judged
 from conform.recorded import recorded, written
 
 from swapcan.conform import Judgement
-from swapcan.conform.rules.pack import RULES
-from swapcan.conform.rules.pack.alarms import alarm_bits
 from swapcan.messages import B2V_ST0, B2V_ST1
+from swapcan.rules.pack import RULES
+from swapcan.rules.pack.alarms import alarm_bits
 from swapcan.wire import dbc_text
 
 NO_CELL = 65535

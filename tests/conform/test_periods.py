@@ -13,8 +13,8 @@ import pytest
 from conform.recorded import written
 
 from swapcan.conform import Judge
-from swapcan.conform.measure.periods import COLUMNS, Periods
 from swapcan.messages import B2V_ST1, BSU_BMS_0, V2B_CMD, B2V_BattInfo1, B2V_Temp, B2V_Ucell
+from typedcan.judge.measure.periods import COLUMNS, Periods
 from typedcan.logs.read import open_log
 from typedcan.wire.message import Message
 

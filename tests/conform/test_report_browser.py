@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 import pytest
 from conform.report_samples import EMPTY, GOOD, HOSTILE, MOMENT, PLAIN, hostile
 
-from swapcan.conform.report import to_html
+from typedcan.judge.report import to_html
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 

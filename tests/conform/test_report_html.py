@@ -24,9 +24,9 @@ from conform.report_samples import (
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judgement, Severity, Tolerance
-from swapcan.conform.report import Moment, to_html
-from swapcan.conform.report.allowed import EXTRA, LEAST, MOST
-from swapcan.conform.text import Text
+from typedcan.judge.report import Moment, to_html
+from typedcan.judge.report.allowed import EXTRA, LEAST, MOST
+from typedcan.report.language import Text
 
 ENVIRONMENT = {"swapcan": "1.2.3", "Python": "<3.11>"}
 

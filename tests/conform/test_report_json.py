@@ -13,8 +13,8 @@ from conform.report_samples import BEGIN, EMPTY, GOOD, HOSTILE, PLAIN, hostile, 
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Judgement
-from swapcan.conform.report import as_json, to_json
-from swapcan.conform.text import Text
+from typedcan.judge.report import as_json, to_json
+from typedcan.report.language import Text
 
 
 def read(*judgements: Judgement, language: Any = "en") -> dict[str, Any]:

@@ -10,7 +10,7 @@ from conform.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
 from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 
 from swapcan.conform import Judgement
-from swapcan.conform.report import to_junit
+from typedcan.judge.report import to_junit
 
 
 def suites(*judgements: Judgement, strict: bool = False) -> list[TestSuite]:

@@ -11,10 +11,10 @@ import pytest
 from conform.report_samples import PLAIN, result, rule
 
 from swapcan.conform import Judgement, Occurrence, Severity, Subject, judge_log
-from swapcan.conform.measure.steps import frame_of_cycle
-from swapcan.conform.report import moments
-from swapcan.conform.text import Text
 from swapcan.messages import B2V_Ucell
+from typedcan.judge.measure.steps import frame_of_cycle
+from typedcan.judge.report import moments
+from typedcan.report.language import Text
 
 BEGIN = 1_700_000_000.0
 ST1, ST2, CMD, UCELL = "1881D0F3", "1882D0F3", "1802F3D0", f"{B2V_Ucell.FRAME_ID:08X}"

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from swapcan.conform.report import environment
+from typedcan.judge.report import environment
 
 ROOT = Path(__file__).parents[2]
 LOG = Path(__file__).with_name("cases") / "checksum" / "fails.log"
@@ -16,7 +16,7 @@ LOG = Path(__file__).with_name("cases") / "checksum" / "fails.log"
 PROGRAM = """
 import sys
 from swapcan.conform import judge_log
-from swapcan.conform.report import *
+from typedcan.judge.report import *
 
 judgement = judge_log(sys.argv[1])
 for language in ("en", "zh"):

@@ -10,7 +10,7 @@ import pytest
 from conform.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
 
 from swapcan.conform import Judgement
-from swapcan.conform.report import to_csv
+from typedcan.judge.report import to_csv
 
 
 def rows(*judgements: Judgement) -> list[dict[str, str]]:

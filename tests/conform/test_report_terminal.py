@@ -19,7 +19,7 @@ from conform.report_samples import (
 )
 
 from swapcan.conform import Judgement, Severity, Verdict
-from swapcan.conform.report import overall, summary
+from typedcan.judge.report import overall, summary
 
 
 def said(*judgements: Judgement, verbose: bool = False) -> str:

@@ -10,11 +10,12 @@ from pathlib import Path
 import pytest
 from conform.in_blocks import ALL, result_of
 
+import swapcan.rules
+import typedcan.judge.rules
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judgement, Rule, RuleResult, Status, judge_log
-from swapcan.conform import rules as folders
-from swapcan.conform.registry import SCOPE
-from swapcan.conform.rules import rules_for
+from swapcan.rules import SCOPE
+from typedcan.judge.rules import rules_for
 
 CASES = Path(__file__).with_name("cases")
 
@@ -75,7 +76,8 @@ def test_every_rule_has_a_case_folder_and_every_folder_a_rule() -> None:
 def test_every_module_with_a_rule_is_registered_under_the_name_of_its_file() -> None:
     modules = {
         info.name.rpartition(".")[2]: import_module(info.name)
-        for info in pkgutil.walk_packages(folders.__path__, f"{folders.__name__}.")
+        for folder in (swapcan.rules, typedcan.judge.rules)
+        for info in pkgutil.walk_packages(folder.__path__, f"{folder.__name__}.")
     }
     own = {name: module.RULE for name, module in modules.items() if hasattr(module, "RULE")}
     made = {name.replace("_", "-") for name, module in modules.items() if hasattr(module, "rule")}

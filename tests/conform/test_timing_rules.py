@@ -11,7 +11,6 @@ import pytest
 from conform.recorded import recorded, written
 
 from swapcan.conform import Judge, Judgement, Status, judge_log, rule_of
-from swapcan.conform.findings import KEPT
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST1,
@@ -28,6 +27,7 @@ from swapcan.messages import (
     C2B_ACStatus,
     V2B_RQData,
 )
+from typedcan.judge.findings import KEPT
 from typedcan.logs.read import open_log
 from typedcan.wire.message import Message
 

@@ -10,7 +10,7 @@ from conform.in_blocks import judged
 from conform.recorded import recorded, written
 
 from swapcan.conform import Severity
-from swapcan.conform.rules.told import RULES
+from swapcan.rules.told import RULES
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from conform.in_blocks import candump, essence, found, result_of
 from conform.recorded import recorded, written
 
 from swapcan.conform import Rule, Status, judge_log, rule_of
-from swapcan.conform.rules.texts import RULES as TEXTS
+from swapcan.rules.texts import RULES as TEXTS
 
 CASES = Path(__file__).with_name("cases")
 

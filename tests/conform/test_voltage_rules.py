@@ -9,7 +9,7 @@ from conform.handmade import Bench, Sketch, at, every, found
 from conform.in_blocks import judged
 from conform.recorded import recorded, written
 
-from swapcan.conform.rules.voltage import RULES
+from swapcan.rules.voltage import RULES
 
 OPEN, PRECHARGE, CLOSED = 0, 1, 2
 ON, OFF = 1, 2

@@ -14,12 +14,12 @@ from scenarios.lines import values
 from scenarios.rig import Bench, bench
 from scenarios.test_safety import Sleeping
 
-from swapcan.conform.text import Text
 from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl, ChargerOperation
 from swapcan.nodes.plan import plan_of
 from swapcan.scenarios.scenario import Scenario
 from swapcan.scenarios.stage import Left
 from typedcan.drive import driving
+from typedcan.report.language import Text
 
 SCENARIO = Scenario(
     name="charger",

@@ -15,11 +15,11 @@ from scenarios.rig import Bench
 
 # Tests replace the scenarios: what a command imports when it is chosen is to know the real ones.
 from swapcan.commands import conform_choice, conform_lists  # noqa: F401
-from swapcan.conform.text import Text
 from swapcan.messages import V2B_CMD, BmsState, HvCommand, RelayState
 from swapcan.nodes.plan import plan_of
 from swapcan.scenarios.scenario import Scenario
 from swapcan.scenarios.stage import Stage
+from typedcan.report.language import Text
 
 
 class DriverError(Exception):

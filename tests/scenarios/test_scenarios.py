@@ -15,7 +15,6 @@ from scenarios.rig import Altered, believe_any_checksum, bench, take_off_for_on
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judgement, Status, Verdict, judge_log, rule_of
-from swapcan.conform.rules.voltage import hv_off_in_time
 from swapcan.messages import (
     V2B_CMD,
     B2V_BattInfo1,
@@ -23,6 +22,7 @@ from swapcan.messages import (
     HvCommand,
     V2B_RQData,
 )
+from swapcan.rules.voltage import hv_off_in_time
 from swapcan.scenarios.announcement import announcement
 from swapcan.scenarios.reactions.high_voltage import HV_ON, HV_REACHED
 from swapcan.scenarios.reactions.troubled_commands import SILENT_VCU, STUCK_COUNTER, WRONG_CHECKSUM

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from swapcan.commands.conform_choice import reactions
 from swapcan.conform import RULES
-from swapcan.conform.text import Language
 from swapcan.scenarios.announcement import announcement
 from swapcan.scenarios.scenarios import SCENARIOS
+from typedcan.report.language import Language
 from typedcan.shell.console import say
 from typedcan.shell.printing import aligned
 

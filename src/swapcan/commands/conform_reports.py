@@ -12,16 +12,8 @@ from pathlib import Path
 from typing import Self
 
 from swapcan.conform import Judgement
-from swapcan.conform.report import (
-    environment,
-    moments,
-    summary,
-    to_csv,
-    to_html,
-    to_json,
-    to_junit,
-)
-from swapcan.conform.text import Language
+from typedcan.judge.report import environment, moments, summary, to_csv, to_html, to_json, to_junit
+from typedcan.report.language import Language
 from typedcan.shell.console import CommandError, note, say_text
 
 

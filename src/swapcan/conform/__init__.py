@@ -14,13 +14,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform import judge, logs
-from swapcan.conform.findings import Occurrence, Subject
-from swapcan.conform.judge import JudgeError as ConformError
-from swapcan.conform.judgement import Judgement, RuleResult, Status, Verdict
-from swapcan.conform.registry import RULES, rule_of
-from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.tolerance import Tolerance
+from swapcan.rules import RULES, rule_of
+from typedcan.judge import judge, logs
+from typedcan.judge.findings import Occurrence, Subject
+from typedcan.judge.judge import JudgeError as ConformError
+from typedcan.judge.judgement import Judgement, RuleResult, Status, Verdict
+from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.tolerance import Tolerance
 from typedcan.logs.window import Moment
 
 __all__ = [
@@ -42,7 +42,7 @@ __all__ = [
 
 
 class Judge(judge.Judge):
-    """Takes the frames of one log in their order; see `swapcan.conform.judge.Judge`.
+    """Takes the frames of one log in their order; see `typedcan.judge.judge.Judge`.
 
     Parameters
     ----------
@@ -78,5 +78,5 @@ def judge_log(
     end: Moment | None = None,
     watch: Callable[[int, int], None] | None = None,
 ) -> Judgement:
-    """Judge a log of any kind; see `swapcan.conform.logs.judge_log`, and `Judge`."""
+    """Judge a log of any kind; see `typedcan.judge.logs.judge_log`, and `Judge`."""
     return logs.judge_log(Judge(nodes, rules, limits), log, start=start, end=end, watch=watch)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from swapcan.conform.rule import Rule
-from swapcan.conform.text import Text
 from swapcan.nodes.plan import PlannedStep
+from typedcan.judge.rule import Rule
 from typedcan.model.errors import TypedcanError
+from typedcan.report.language import Text
 from typedcan.simulate.faults import PlannedFault
 
 

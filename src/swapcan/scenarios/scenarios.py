@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
-from swapcan.conform.registry import rule_of
-from swapcan.conform.rules.charging import charge_stops_on_fault
-from swapcan.conform.rules.voltage import hv_off_in_time
-from swapcan.conform.text import Text
 from swapcan.nodes.faults import planned_fault
 from swapcan.nodes.plan import plan_of
+from swapcan.rules import rule_of
+from swapcan.rules.charging import charge_stops_on_fault
+from swapcan.rules.voltage import hv_off_in_time
 from swapcan.scenarios.reactions.charging import CHARGE_BEGINS, CHARGE_ENDS, CHARGE_RESUMES
 from swapcan.scenarios.reactions.high_voltage import HV_ON, HV_REACHED
 from swapcan.scenarios.reactions.troubled_commands import SILENT_VCU, STUCK_COUNTER, WRONG_CHECKSUM
 from swapcan.scenarios.scenario import Scenario, ScenarioError
+from typedcan.report.language import Text
 
 SCENARIOS: Mapping[str, Scenario] = MappingProxyType(
     {

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from swapcan.conform.chunk import LogEnd
-from swapcan.conform.findings import Occurrence, Subject
-from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.text import Text
-from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl, ChargerFault
 from swapcan.scenarios.reactions.reaction import PACK, Reaction, first
+from typedcan.judge.chunk import LogEnd
+from typedcan.judge.findings import Occurrence, Subject
+from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.tolerance import Tolerance
+from typedcan.report.language import Text
 from typedcan.wire.protocol import FieldRef
 
 _CONTROL = FieldRef(B2C_Charger, "charge_control")

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from swapcan.conform.chunk import LogEnd
-from swapcan.conform.findings import Occurrence, Subject
-from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.text import Text
-from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import (
     B2V_RQ,
     B2V_ST1,
@@ -17,6 +12,11 @@ from swapcan.messages import (
     HvOffRequest,
 )
 from swapcan.scenarios.reactions.reaction import PACK, Reaction, Track, first
+from typedcan.judge.chunk import LogEnd
+from typedcan.judge.findings import Occurrence, Subject
+from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.tolerance import Tolerance
+from typedcan.report.language import Text
 from typedcan.wire.protocol import FieldRef
 
 COMMAND = FieldRef(V2B_CMD, "hv_on_off")

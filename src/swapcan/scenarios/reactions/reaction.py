@@ -7,9 +7,9 @@ from typing import ClassVar, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from swapcan.conform.chunk import Chunk
-from swapcan.conform.findings import Findings
-from swapcan.conform.rule import Watcher
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import Findings
+from typedcan.judge.rule import Watcher
 from typedcan.wire.protocol import FieldRef
 
 PACK = "BMU"

@@ -6,14 +6,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from swapcan.conform.chunk import LogEnd
-from swapcan.conform.findings import Occurrence, Subject
-from swapcan.conform.rule import Rule, Severity
-from swapcan.conform.text import Text
-from swapcan.conform.tolerance import Tolerance
 from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, HvCommand
 from swapcan.scenarios.reactions.high_voltage import COMMAND, LEVEL, PACK_STATE, STATE, label
 from swapcan.scenarios.reactions.reaction import PACK, Reaction, Track
+from typedcan.judge.chunk import LogEnd
+from typedcan.judge.findings import Occurrence, Subject
+from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.tolerance import Tolerance
+from typedcan.report.language import Text
 from typedcan.wire.protocol import FieldRef
 
 _COUNTER = FieldRef(V2B_CMD, "aliv")

@@ -1,0 +1,85 @@
+"""The rules of this standard: those that hold for any protocol, in its words, and its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from swapcan._generated.protocol import PROTOCOL
+from swapcan.messages import (
+    B2V_ST0,
+    B2V_ST1,
+    B2V_ST4,
+    B2V_ST5,
+    B2V_ST6,
+    V2B_CMD,
+    B2V_SysCode1,
+    B2V_Temp,
+    B2V_Ucell,
+)
+from swapcan.rules import charging, cooling, pack, texts, told, voltage
+from swapcan.rules.voltage import node_silence, relays_before_command, start_state
+from swapcan.rules.wording import worded
+from typedcan.judge.rule import Rule
+from typedcan.judge.rules import rules_for
+from typedcan.judge.scope import Scope
+from typedcan.wire.message import Message
+
+_COMMANDS = ("hv_on_off", "hv_acc_on_off", "heat_on_off")
+
+
+def _names(message: type[Message], *fields: str) -> list[str]:
+    return [message.FIELDS[field].dbc_name for field in fields]
+
+
+SCOPE = Scope(
+    # Table 8 row 2 names five manufacturers of many; row 3 labels one number of 32.
+    examples=frozenset(_names(B2V_SysCode1, "manufacturer", "sys_code_length")),
+    # Tables 6 and 7 number CSCs from 1, as tables 9 and 10 do; how far depends on the pack.
+    from_one=(
+        *_names(B2V_ST4, "max_temp_csc_no", "min_temp_csc_no"),
+        *_names(B2V_ST5, "max_ucell_csc_no"),
+        *_names(B2V_ST6, "min_ucell_csc_no"),
+    ),
+    # Table 1 row 12 has no other code for a pack that is not charging.
+    reserved_used=frozenset(_names(B2V_ST1, "chg_mode")),
+    # Relay states, which the other side may measure, and items that pad a CSC's last frame.
+    without_value=frozenset(
+        {
+            *_names(B2V_ST0, *B2V_ST0.FIELDS),
+            *_names(B2V_Ucell, *B2V_Ucell.FIELDS),
+            *_names(B2V_Temp, *B2V_Temp.FIELDS),
+            *_names(V2B_CMD, *(name for name in V2B_CMD.FIELDS if name not in _COMMANDS)),
+        }
+    ),
+    transfers={"cell_voltages": "cells", "probe_temperatures": "probes"},
+)
+"""What the tables leave open."""
+
+_BEFORE: Mapping[str, tuple[Rule, ...]] = {
+    "event-repeated": (node_silence.RULE,),
+    "bus-load": (start_state.RULE, relays_before_command.RULE),
+    "cells-complete": texts.RULES,
+}
+"""Rules of this standard that are listed among the others, by the one that comes after them."""
+
+RULES: tuple[Rule, ...] = (
+    *(
+        each
+        for rule in rules_for(PROTOCOL, SCOPE)
+        for each in (*_BEFORE.get(rule.id, ()), worded(rule))
+    ),
+    *pack.RULES,
+    *voltage.RULES,
+    *charging.RULES,
+    *cooling.RULES,
+    *told.RULES,
+)
+"""Every rule once, in the order in which reports list them."""
+
+
+def rule_of(rule_id: str) -> Rule:
+    """The rule of that id; raises `LookupError`."""
+    for rule in RULES:
+        if rule.id == rule_id:
+            return rule
+    raise LookupError(f"there is no rule {rule_id!r}")

@@ -1,0 +1,44 @@
+"""The announced numbers of CSCs and cells are those that are sent."""
+
+from __future__ import annotations
+
+from functools import partial
+from operator import attrgetter
+
+from swapcan.messages import B2V_Ucell
+from swapcan.rules.pack.announced import Announced
+from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.tolerance import Tolerance
+from typedcan.report.language import Text
+
+_SECONDS = Tolerance(
+    name="cell-count-announced.seconds",
+    value=1.0,
+    unit="s",
+    text=Text(
+        "how long B2V_Ucell must be seen, so that lost frames came at least once",
+        "B2V_Ucell 至少需观察的时间,使偶尔丢失的帧至少出现一次",
+    ),
+)
+
+RULE = Rule(
+    id="cell-count-announced",
+    title=Text(
+        "The announced numbers of CSCs and cells are those that are sent",
+        "上报的 CSC 总数及电芯总数与单体电压报文一致",
+    ),
+    purpose=Text(
+        "A receiver waits for as many readings as are announced, and knows none to be missing.",
+        "接收方按上报的总数收集数据,并据此判断是否缺失。",
+    ),
+    clause="Table 13 rows 6 and 7 (5.1.12), Table 9 (5.1.8)",
+    severity=Severity.MUST,
+    judges=("BMU",),
+    tolerances=(_SECONDS,),
+    watch=partial(
+        Announced,
+        message=B2V_Ucell,
+        totals={"tot_csc_num": attrgetter("cscs"), "tot_cell_num": attrgetter("readings")},
+        seconds=_SECONDS,
+    ),
+)

@@ -1,0 +1,84 @@
+"""What several reports need to know of a judgement."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from typedcan.judge.findings import Occurrence
+from typedcan.judge.judgement import Judgement, RuleResult, Status, Verdict
+from typedcan.judge.measure.load import Load
+from typedcan.judge.report import words
+from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.tolerance import Tolerance
+from typedcan.report.language import Language
+from typedcan.shell.printing import printable
+
+_GRAVEST = (Verdict.VIOLATES, Verdict.NOT_JUDGED, Verdict.CONFORMS)
+
+
+def overall(judgements: Sequence[Judgement]) -> Verdict:
+    """The gravest verdict: one log that does not conform is enough."""
+    verdicts = {judgement.verdict for judgement in judgements}
+    return next((each for each in _GRAVEST if each in verdicts), Verdict.NOT_JUDGED)
+
+
+def failed(judgement: Judgement, severity: Severity) -> tuple[RuleResult, ...]:
+    """The results of that severity that have findings, in their order."""
+    return tuple(
+        result for result in judgement.results if result.count and result.rule.severity is severity
+    )
+
+
+def judged_of(judgement: Judgement, rule: Rule) -> tuple[str, ...]:
+    """The nodes that a rule judged in a log."""
+    return tuple(node for node in judgement.nodes if node in rule.judges)
+
+
+def unseen(judgement: Judgement) -> tuple[str, ...]:
+    """The judged nodes that sent nothing."""
+    return tuple(node for node in judgement.nodes if node not in judgement.seen)
+
+
+def in_force(judgement: Judgement, tolerance: Tolerance) -> float:
+    """The value of a tolerance in that run."""
+    return judgement.limits.get(tolerance.name, tolerance.value)
+
+
+def why(judgement: Judgement, language: Language) -> str:
+    """One sentence beside the verdict."""
+    broken = failed(judgement, Severity.MUST)
+    blamed = {found.subject.node for result in broken for found in result.occurrences}
+    nodes = [node for node in judgement.nodes if node in blamed]
+    comma = words.COMMA.within(language)
+    text = words.REASONS[judgement.verdict].within(language)
+    return text.format(rules=len(broken), nodes=comma.join(nodes))
+
+
+def says(found: Occurrence, language: Language) -> str:
+    """What is wrong, on one line."""
+    return printable(found.says(language))
+
+
+def found(result: RuleResult, language: Language) -> str:
+    """How often something was found."""
+    text = words.FOUND.within(language)
+    return text.format(count=f"{result.count:,}", frames=f"{result.frames:,}")
+
+
+def other_worst(result: RuleResult) -> Occurrence | None:
+    """The worst occurrence, where it is another than the first."""
+    worst, first = result.worst, result.first
+    if worst is None or first is None:
+        return None
+    same = (worst.subject, worst.start, worst.order) == (first.subject, first.start, first.order)
+    return None if same else worst
+
+
+def by_status(judgement: Judgement, status: Status) -> str:
+    """The ids of the rules with that status, in their order."""
+    return ", ".join(result.rule.id for result in judgement.of_status(status))
+
+
+def channel(load: Load, language: Language) -> str:
+    """The name of a bus."""
+    return printable(load.channel) or words.NO_CHANNEL.within(language)

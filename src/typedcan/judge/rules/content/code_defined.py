@@ -1,0 +1,93 @@
+"""Codes are those that the value tables have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import Findings, Said
+from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.rules.content.codes import Codes, judge_codes, senders, whole_fields, without
+from typedcan.judge.scope import Scope
+from typedcan.report.language import Text
+from typedcan.wire.message import LabelledField
+from typedcan.wire.protocol import FieldRef, Protocol, Transfer
+
+_UNDEFINED = Text(
+    "code {code} has no meaning; defined are {defined}",
+    "编码 {code} 未定义,已定义的编码为 {defined}",
+)
+_NUMBERED_FROM_ONE = Text("number {code}; numbers begin at 1", "编号为 {code},编号应从 1 开始")
+
+
+class CodeDefined(Watcher):
+    """Holds codes against the value tables, and numbers against where they begin and end."""
+
+    def __init__(
+        self, findings: Findings, tables: Sequence[Codes], numbers: Sequence[Codes]
+    ) -> None:
+        super().__init__(findings)
+        self._tables = tables
+        self._numbers = numbers
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge the next frames."""
+        judge_codes(self.findings, chunk, self._tables, _describe)
+        judge_codes(self.findings, chunk, self._numbers, _describe_number)
+
+
+def _describe(codes: Codes, code: int) -> Said:
+    return _UNDEFINED, {"code": code, "defined": ", ".join(map(str, codes.right))}
+
+
+def _describe_number(codes: Codes, code: int) -> Said:  # noqa: ARG001
+    return _NUMBERED_FROM_ONE, {"code": code}
+
+
+def _labelled(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
+    for message, field in whole_fields(protocol):
+        if isinstance(field, LabelledField) and field.dbc_name not in scope.examples:
+            right = tuple(sorted(field.labels))
+            undefined = without([field.signal.raw_limits], right)
+            if undefined:
+                yield Codes(message, field, undefined, right)
+
+
+def _frame_numbers(transfers: Sequence[Transfer]) -> Iterator[Codes]:
+    """Of the frames of transfers of which it is known how many they take."""
+    for transfer in transfers:
+        if transfer.frame_number and not transfer.group and transfer.count:
+            message, name = transfer.frame_number
+            field = message.FIELDS[name]
+            right = tuple(range(1, -(-transfer.count // len(transfer.items)) + 1))
+            yield Codes(message, field, without([field.signal.raw_limits], right), right)
+
+
+def _from_one(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
+    refs: list[FieldRef] = []
+    for transfer in protocol.transfers:
+        if transfer.frame_number and transfer.group:
+            refs += [transfer.frame_number, transfer.group]
+    for message, field in whole_fields(protocol):
+        if field.dbc_name in scope.from_one:
+            refs.append(FieldRef(message, field.name))
+    for message, name in refs:
+        yield Codes(message, message.FIELDS[name], ((0, 0),))
+
+
+def rule(protocol: Protocol, scope: Scope) -> Rule:
+    """The rule of a protocol."""
+    tables = (*_labelled(protocol, scope), *_frame_numbers(protocol.transfers))
+    numbers = tuple(_from_one(protocol, scope))
+    return Rule(
+        id="code-defined",
+        title=Text("Codes have a meaning", "编码有定义"),
+        purpose=Text(
+            "Nobody knows what a code says that the value table does not have.",
+            "编码定义中没有的编码,接收方无法理解。",
+        ),
+        severity=Severity.MUST,
+        judges=senders((*tables, *numbers)),
+        watch=partial(CodeDefined, tables=tables, numbers=numbers),
+    )

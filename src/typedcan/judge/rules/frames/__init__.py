@@ -1,0 +1,32 @@
+"""Frames as such: identifiers, kinds, lengths, reserved bits."""
+
+from __future__ import annotations
+
+from typedcan.judge.rule import Rule
+from typedcan.judge.rules.frames import (
+    error_frames,
+    foreign_frames,
+    frame_kind,
+    frame_length,
+    identifier_priority,
+    message_one_channel,
+    reserved_bits,
+    source_address,
+    unassigned_bits,
+)
+from typedcan.wire.protocol import Protocol
+
+
+def rules(protocol: Protocol) -> tuple[Rule, ...]:
+    """Those of a protocol, in the order of reports."""
+    return (
+        frame_kind.rule(protocol),
+        frame_length.rule(protocol),
+        identifier_priority.rule(protocol),
+        source_address.rule(protocol),
+        reserved_bits.rule(protocol),
+        unassigned_bits.rule(protocol),
+        foreign_frames.rule(protocol),
+        error_frames.rule(protocol),
+        message_one_channel.rule(protocol),
+    )

@@ -1,0 +1,66 @@
+"""Checksums are those that the bytes of their frame make."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import Findings, Said, Subject
+from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.series import Series
+from typedcan.logs.checks import has_checksum
+from typedcan.model.layout import whole_byte
+from typedcan.report.language import Text
+from typedcan.wire.message import Message
+from typedcan.wire.protect import STANDARD_ALGORITHMS, expected_checksum
+from typedcan.wire.protocol import Protocol
+
+_WRONG = Text(
+    "checksum 0x{given:02X}, the bytes make 0x{right:02X}",
+    "校验和为 0x{given:02X},按字节计算应为 0x{right:02X}",
+)
+
+
+class Checksum(Watcher):
+    """Compares each checksum with the one that the bytes make."""
+
+    def __init__(self, findings: Findings, messages: Sequence[type[Message]]) -> None:
+        super().__init__(findings)
+        self._messages = messages
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge all frames of messages that have a checksum."""
+        for message in self._messages:
+            series, sound = chunk.frames(message), chunk.sound(message)
+            wrong = np.zeros(len(series), np.bool_)
+            if series.fresh != sound.fresh:
+                wrong = ~np.isin(series.order, sound.order)
+            subject = Subject(message.SENDER, message.NAME)
+            self.findings.rows(subject, series, wrong, partial(_describe, series))
+
+
+def _describe(series: Series, row: int) -> Said:
+    data = bytes(series.payload[row])
+    right = expected_checksum(series.message, data, STANDARD_ALGORITHMS)
+    checksum = series.message.MODEL.checksum
+    place = whole_byte(series.message.MODEL.signal(checksum.signal)) if checksum else None
+    return _WRONG, {"given": data[place or 0], "right": right}
+
+
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    protected = tuple(each for each in protocol.messages if has_checksum(each.MODEL))
+    return Rule(
+        id="checksum",
+        title=Text("Checksums are right", "校验和正确"),
+        purpose=Text(
+            "A receiver drops a frame whose checksum is wrong.",
+            "接收方会丢弃校验和错误的报文。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(message.SENDER for message in protected)),
+        watch=partial(Checksum, messages=protected),
+    )

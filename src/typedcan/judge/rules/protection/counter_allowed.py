@@ -1,0 +1,62 @@
+"""Alive counters never hold the code that says Signal Invalid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import Findings, Said, Subject
+from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.series import Series
+from typedcan.report.language import Text
+from typedcan.wire.message import Counter, Message
+from typedcan.wire.protocol import Protocol
+
+_FORBIDDEN = Text(
+    "the counter is {value}; it runs from 0 to {last}", "计数值为 {value},应在 0~{last} 之间"
+)
+
+
+class CounterAllowed(Watcher):
+    """Looks for counters at or above their modulus."""
+
+    def __init__(
+        self, findings: Findings, counters: Sequence[tuple[type[Message], Counter]]
+    ) -> None:
+        super().__init__(findings)
+        self._counters = counters
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge the next frames."""
+        for message, counter in self._counters:
+            series = chunk.sound(message)
+            wrong = series.raw(counter.field) >= counter.modulus
+            subject = Subject(message.SENDER, message.NAME, counter.dbc_name)
+            self.findings.rows(subject, series, wrong, partial(_describe, series, counter))
+
+
+def _describe(series: Series, counter: Counter, row: int) -> Said:
+    value = int(series.raw(counter.field)[row])
+    return _FORBIDDEN, {"value": value, "last": counter.modulus - 1}
+
+
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    limited = tuple(
+        (message, counter)
+        for message in protocol.messages
+        if (counter := message.COUNTER)
+        and counter.modulus < 1 << message.FIELDS[counter.field].length
+    )
+    return Rule(
+        id="counter-allowed",
+        title=Text("Alive counters are valid", "生命信号有效"),
+        purpose=Text(
+            "A receiver cannot tell from a value beyond the last that the sender is alive.",
+            "超出计数范围的值不能说明发送方正常工作。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(message.SENDER for message, _ in limited)),
+        watch=partial(CounterAllowed, counters=limited),
+    )

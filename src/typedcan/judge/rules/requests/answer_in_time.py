@@ -1,0 +1,153 @@
+"""Requests are answered, with all that was asked for, in time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import Findings, Occurrence, Subject
+from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.rules.requests.spells import Spell, Spells, first_after
+from typedcan.judge.tolerance import Tolerance
+from typedcan.report.language import Text
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol, Request
+
+_SECONDS = Tolerance(
+    name="answer-in-time.seconds",
+    value=2.0,
+    unit="s",
+    text=Text(
+        "From a request to the last of its answers",
+        "从发出请求到收到全部应答的时间",
+    ),
+)
+
+_MISSING = Text(
+    "no {missing} within {limit:.3g} s of the request",
+    "请求发出后 {limit:.3g} s 内未收到 {missing}",
+)
+
+
+_SOME = 4096
+"""Frames that are looked through at a time."""
+
+
+class AnswerInTime(Watcher):
+    """Waits for the answers to each request that begins."""
+
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
+        super().__init__(findings)
+        limit = findings.limit(_SECONDS)
+        self._waits = [
+            _Wait(Spells(request), protocol, findings, limit) for request in protocol.requests
+        ]
+
+    def take(self, chunk: Chunk) -> None:
+        """Judge the requests whose time is over, or that were answered."""
+        for wait in self._waits:
+            wait.take(chunk)
+
+
+@dataclass(slots=True)
+class _Wait:
+    """What is waited for, for one kind of request.
+
+    ``seen`` says whether the node that is asked sent anything since the request began.
+    """
+
+    spells: Spells
+    protocol: Protocol
+    findings: Findings
+    limit: float
+    judged: Spell | None = None
+    seen: bool = False
+
+    def take(self, chunk: Chunk) -> None:
+        for spell in self.spells.take(chunk):
+            if spell is self.judged:
+                continue
+            if spell.begin.order >= chunk.first_order:
+                self.seen = False
+            if self._settle(spell, chunk):
+                self.judged = spell
+
+    def _settle(self, spell: Spell, chunk: Chunk) -> bool:
+        """Judge a request as far as it can be; whether it is settled."""
+        over = _first_later(chunk, spell, spell.begin.time + self.limit)
+        last = over if spell.end is None else min(over or spell.end.order, spell.end.order)
+        request = self.spells.request
+        missing = [
+            answer
+            for answer in request.answers
+            if answer not in spell.answers
+            or (last is not None and spell.answers[answer].order >= last)
+        ]
+        if not missing:
+            self.findings.examine(request.answers[0].SENDER)
+            return True
+        self.seen = self.seen or self._sent_anything(chunk, spell.begin.order, last)
+        if last is None:
+            return False
+        if last == over and self.seen:
+            self._blame(request, spell, missing)
+        return True
+
+    def _sent_anything(self, chunk: Chunk, after: int, before: int | None) -> bool:
+        """Whether the node that is asked sent a frame of any kind, between two others."""
+        for message in self.protocol.sent_by(self.spells.request.answers[0].SENDER):
+            series = chunk.frames(message)
+            row = first_after(series.order, after)
+            if row is not None and (before is None or series.order[row] < before):
+                return True
+        return False
+
+    def _blame(self, request: Request, spell: Spell, missing: list[type[Message]]) -> None:
+        message, field = request.field
+        node = request.answers[0].SENDER
+        self.findings.examine(node)
+        found = Occurrence(
+            subject=Subject(node, message.NAME, message.FIELDS[field].dbc_name),
+            start=spell.begin.time,
+            end=spell.begin.time + self.limit,
+            order=spell.begin.order,
+            measure=float(len(missing)),
+            text=_MISSING,
+            values={
+                "missing": ", ".join(answer.NAME for answer in missing),
+                "limit": self.limit,
+            },
+        )
+        self.findings.add(found)
+
+
+def _first_later(chunk: Chunk, spell: Spell, time: float) -> int | None:
+    """The number of the first frame of a chunk that comes in a spell but later than a time."""
+    if chunk.end <= time:
+        return None
+    begin = max(0, spell.begin.order + 1 - chunk.first_order)
+    for start in range(begin, len(chunk.block), _SOME):  # it is seldom far
+        late = chunk.block.timestamp[start : start + _SOME] - chunk.begin > time
+        if late.any():
+            return chunk.first_order + start + int(np.argmax(late))
+    return None
+
+
+def rule(protocol: Protocol) -> Rule:
+    """The rule of a protocol."""
+    return Rule(
+        id="answer-in-time",
+        title=Text("Requests are answered in time", "请求得到及时应答"),
+        purpose=Text(
+            "Who asks waits for all messages of the answer. A node that is not on the bus, and a "
+            "request withdrawn before its time, are not judged.",
+            "请求方需要收到全部应答报文。不在总线上的节点以及提前撤销的请求不作判定。",
+        ),
+        severity=Severity.MUST,
+        judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in protocol.requests)),
+        tolerances=(_SECONDS,),
+        watch=partial(AnswerInTime, protocol=protocol),
+    )

@@ -1,0 +1,61 @@
+"""What rules share that judge all steps of a message together, at the end of the log."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+from typedcan.judge.chunk import Chunk, LogEnd
+from typedcan.judge.findings import Findings, Occurrence, Said, Subject
+from typedcan.judge.measure.spread import Spread
+from typedcan.judge.measure.steps import Steps
+from typedcan.judge.rule import Watcher
+from typedcan.wire.protocol import Protocol
+
+
+class WholeLog(Watcher):
+    """Adds up the steps of each message."""
+
+    def __init__(self, findings: Findings, protocol: Protocol) -> None:
+        super().__init__(findings)
+        self._spread = dict.fromkeys(protocol.messages, Spread())
+
+    @property
+    @abstractmethod
+    def least(self) -> float:
+        """Steps that it takes to judge a message."""
+
+    @abstractmethod
+    def judge(self, period: float, spread: Spread) -> tuple[float, Said | None]:
+        """How far off the steps of a message are, and what is wrong with them, if anything."""
+
+    def spread(self, period: float, steps: Steps) -> Spread:  # noqa: ARG002
+        """Of the steps that count."""
+        return steps.spread
+
+    def take(self, chunk: Chunk) -> None:
+        """Add the steps that end here."""
+        for message, steps in chunk.timing.steps.items():
+            if message.PERIOD:
+                self._spread[message] += self.spread(message.PERIOD, steps)
+
+    def finish(self, end: LogEnd) -> None:
+        """Judge each message that came often enough."""
+        for message, spread in self._spread.items():
+            if not message.PERIOD or spread.count < max(self.least, 1):
+                continue
+            seen = end.messages[message]
+            self.findings.examine(message.SENDER)
+            measure, said = self.judge(message.PERIOD, spread)
+            if said:
+                self.findings.add(
+                    Occurrence(
+                        subject=Subject(message.SENDER, message.NAME),
+                        start=seen.first,
+                        end=seen.last,
+                        order=seen.first_order,
+                        frames=seen.frames,
+                        measure=measure,
+                        text=said[0],
+                        values=said[1],
+                    )
+                )
