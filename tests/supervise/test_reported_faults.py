@@ -17,6 +17,7 @@ NO_FAULTS = {
     "counter repeated": 0,
     "counter skipped": 0,
     "counter invalid": 0,
+    "format": 0,
 }
 
 

@@ -37,6 +37,7 @@ def test_a_snapshot_is_plain_data() -> None:
             "counter repeated": 0,
             "counter skipped": 0,
             "counter invalid": 0,
+            "format": 0,
         },
         "onsets": {"invalid": 1},
         "signals": [

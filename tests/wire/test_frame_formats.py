@@ -16,6 +16,7 @@ from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import SendingError
 from typedcan.wire.link import Link
 from typedcan.wire.protocol import Protocol
+from typedcan.wire.receiver import Fault, Received, Receiver
 
 FIXTURES = Path(__file__).parents[1] / "fixtures"
 FORMATS = {
@@ -125,3 +126,54 @@ def test_the_second_bit_rate_is_what_the_attribute_says(
     long, short = read_dbc(path).messages
     assert (long.is_fd, short.is_fd) == (True, True)
     assert short.bit_rate_switch == switches
+
+
+def _sent(protocol: Protocol, name: str) -> can.Message:
+    return Codec(protocol).frame(protocol.message(name)(**_filled(protocol, name)))
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_frame_of_another_format_is_a_fault_and_its_message_is_there(
+    name: str, protocol: Protocol
+) -> None:
+    receiver = Receiver(Codec(protocol))
+    frame = _sent(protocol, name)
+    right = receiver.take(frame)
+    assert isinstance(right, Received)
+    assert right.faults == ()
+    frame.is_fd = not frame.is_fd
+    received = receiver.take(frame)
+    assert isinstance(received, Received)
+    assert received.message == right.message
+    assert [fault.kind for fault in received.faults] == ["format"]
+    assert ("classic" in received.faults[0].text) == (not frame.is_fd)
+    assert (receiver.counts.received, receiver.counts.format, receiver.counts.faults) == (2, 1, 1)
+
+
+def test_nothing_is_wrong_with_a_format_of_which_the_database_says_nothing() -> None:
+    silent = typed_protocol(read_dbc(FIXTURES / "databases" / "tiny.dbc"))
+    receiver, frame = Receiver(Codec(silent)), _sent(silent, "STD")
+    frame.is_fd = True
+    received = receiver.take(frame)
+    assert isinstance(received, Received)
+    assert received.faults == ()
+
+
+@pytest.mark.parametrize(
+    ("length", "there"), [(9, False), (10, True), (11, False), (12, True), (16, False)]
+)
+def test_a_can_fd_payload_has_its_length_or_is_filled_up_to_the_next_one(
+    length: int, there: object, protocol: Protocol
+) -> None:
+    receiver, frame = Receiver(Codec(protocol)), _sent(protocol, "Between")
+    data = bytes(frame.data)[:10].ljust(length, b"\xff")[:length]
+    frame.data, frame.dlc = bytearray(data), length
+    taken = receiver.take(frame)
+    assert isinstance(taken, Received) == there
+    if isinstance(taken, Received):
+        assert taken.data == data[:10]
+        assert taken.message == Codec(protocol).decode_frame(frame)
+        assert taken.message == protocol.message("Between")(**_filled(protocol, "Between"))
+    else:
+        assert isinstance(taken, Fault)
+        assert taken.kind == "length"

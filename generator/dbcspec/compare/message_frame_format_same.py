@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dbcspec.compare.promise import Breaks, Class, Promise, in_messages
+from typedcan.model.protocol import Aspect
 
 PROMISE = Promise(
     "message-frame-format-same",
@@ -10,4 +11,5 @@ PROMISE = Promise(
     Class.WIRE,
     Breaks.BOTH,
     in_messages("frame format", lambda message: message.frame_kind),
+    needs=Aspect.FRAME_FORMATS,
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from dbcspec.errors import Fault, SpecError
@@ -14,7 +14,7 @@ from dbcspec.matrix.row import Row, Sheet, open_sheet
 from dbcspec.matrix.signal import SharedTables
 from dbcspec.matrix.values import names_of, raw_of, text_of, whole_of
 from typedcan.model.errors import ReadError
-from typedcan.model.protocol import Aspect, Bus, Erratum, Node, Protocol
+from typedcan.model.protocol import Aspect, Bus, Erratum, Message, Node, Protocol
 
 _LARGEST_ADDRESS = 255
 _MOST_BIT_RATE = 100_000_000
@@ -59,7 +59,7 @@ def read_matrix(path: Path, *, shown_as: str | None = None) -> Protocol:
         messages=tuple(messages),
         value_tables=tables.all(),
         errata=errata,
-        carries=frozenset(_carries(sheet, grids)),
+        carries=frozenset(_carries(sheet, grids, messages)),
     )
 
 
@@ -82,7 +82,7 @@ def _matrix_table(grids: list[Grid], name: str) -> known.Table:
     raise ReadError(f"{name}: no CAN matrix: {where} no column {words}")
 
 
-def _carries(sheet: Sheet, grids: list[Grid]) -> Iterator[Aspect]:
+def _carries(sheet: Sheet, grids: list[Grid], messages: Iterable[Message]) -> Iterator[Aspect]:
     """What the columns can say at all."""
     for aspect, keys in (
         (Aspect.PERIODS, ("period",)),
@@ -95,6 +95,8 @@ def _carries(sheet: Sheet, grids: list[Grid]) -> Iterator[Aspect]:
     ):
         if all(map(sheet.has, keys)):
             yield aspect
+    if any(message.is_fd for message in messages):
+        yield Aspect.FRAME_FORMATS
     nodes = _side_table(grids, known.NODES, known.NODES_NEED)
     if nodes and "address" in nodes.table.columns:
         yield Aspect.ADDRESSES

@@ -26,6 +26,7 @@ from typing import Any
 
 from swapcan.node.answers import BatteryInfo
 from swapcan.nodes.simulation import Simulation
+from typedcan.commands.transcript import faults_text
 from typedcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
 from typedcan.node.node import Node
 from typedcan.node.request import Pending
@@ -83,14 +84,9 @@ class SimulationReport:
         counts = [node.counts for each in participants.values() for node in each.nodes]
         sent = sum(bus.sent for bus in buses)
         received = sum(bus.received for bus in buses)
-        length, checksum, counter = (
-            sum(getattr(each, kind) for each in counts)
-            for kind in ("length", "checksum", "counter")
-        )
         return (
             f"simulated {', '.join(participants)} for {seconds:.1f} s:"
-            f" frames sent {sent}, from others {received}, faults {length + checksum + counter}"
-            f" (length {length}, checksum {checksum}, counter {counter})"
+            f" frames sent {sent}, from others {received}, {faults_text(counts)}"
         )
 
     def _listen(self, name: str, node: Node) -> None:

@@ -14,8 +14,8 @@ from typedcan.logs.plot.html import notes
 from typedcan.logs.progress import Progress
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.window import Moment, moment
+from typedcan.model.plain import shown
 from typedcan.shell.console import CommandError, note
-from typedcan.wire.plain import shown
 
 DAMAGED = 3
 """Exit status where the log is damaged."""

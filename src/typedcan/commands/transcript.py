@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Collection
 from typing import Any
 
 import can
@@ -31,7 +32,7 @@ from typedcan.shell.console import say
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import LabelledField, Message, SignalState
-from typedcan.wire.receiver import Receiver
+from typedcan.wire.receiver import Counts, Receiver
 
 JSON_HELP = (
     "print one JSON object a line: timestamp, channel, id, message, and signals, states, faults,"
@@ -83,16 +84,21 @@ class Transcript:
         """How many frames there were, and what became of them."""
         counts = [receiver.counts for receiver in self._receivers.values()]
         unknown = sum(each.foreign for each in counts)
-        length, checksum, counter = (
-            sum(getattr(each, kind) for each in counts)
-            for kind in ("length", "checksum", "counter")
-        )
+        refused = sum(each.length + each.checksum for each in counts)
         return (
-            f"frames {self.messages + unknown + length + checksum}, decoded {self.messages},"
-            f" unknown {unknown} (identifiers {len(self._unknown)}),"
-            f" faults {length + checksum + counter}"
-            f" (length {length}, checksum {checksum}, counter {counter})"
+            f"frames {self.messages + unknown + refused}, decoded {self.messages},"
+            f" unknown {unknown} (identifiers {len(self._unknown)}), {faults_text(counts)}"
         )
+
+
+def faults_text(counts: Collection[Counts]) -> str:
+    """How many faults there were in all, and of which kind."""
+    kinds = {
+        kind: sum(getattr(each, kind) for each in counts)
+        for kind in ("length", "checksum", "counter", "format")
+    }
+    listed = (f"{kind} {count}" for kind, count in kinds.items() if count or kind != "format")
+    return f"faults {sum(kinds.values())} ({', '.join(listed)})"
 
 
 def text_line(taken: Received[Message] | Fault, width: int = 0) -> str:

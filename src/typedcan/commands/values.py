@@ -7,6 +7,7 @@ import inspect
 import re
 from collections.abc import Sequence
 
+from typedcan.model.plain import shown
 from typedcan.shell.console import CommandError
 from typedcan.wire.message import (
     CharacterField,
@@ -18,7 +19,6 @@ from typedcan.wire.message import (
     SignalState,
     Value,
 )
-from typedcan.wire.plain import shown
 
 _STATES = {"invalid": SignalState.INVALID, "abnormal": SignalState.ABNORMAL}
 

@@ -121,6 +121,8 @@ class _Builder:
             aspect.REFERENCES: "SpecReference" in self._defined,
             aspect.ADDRESSES: "NmStationAddress" in self._defined,
             aspect.VALUE_TABLE_NAMES: self._value_tables.named,
+            aspect.FRAME_FORMATS: "VFrameFormat" in self._defined
+            or any(message.is_fd for message in messages),
         }
         return frozenset(each for each, is_said in said.items() if is_said)
 

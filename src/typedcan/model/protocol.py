@@ -50,6 +50,7 @@ class Aspect(Enum):
     PROTECTION = "checksums and counters"
     TRANSFERS = "transfers and requests"
     ACTS = "codes that act"
+    FRAME_FORMATS = "classic CAN or CAN FD"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

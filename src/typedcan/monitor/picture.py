@@ -24,9 +24,9 @@ class Totals:
         All frames, whatever they were.
     messages
         Those that were messages of the protocol.
-    length, checksum, counter
+    length, checksum, counter, format
         Frames of known messages that were refused for their length or checksum, and messages with
-        a wrong counter.
+        a wrong counter, or in frames of another format.
     foreign, errors
         Frames of other protocols, and error frames.
     frames_per_second, load
@@ -44,11 +44,12 @@ class Totals:
     errors: int
     frames_per_second: float
     load: float | None
+    format: int = 0
 
     @property
     def faults(self) -> int:
         """All faults together."""
-        return self.length + self.checksum + self.counter
+        return self.length + self.checksum + self.counter + self.format
 
 
 @dataclass(frozen=True, slots=True)

@@ -157,6 +157,7 @@ class Watch:
             length=counts.length - before.length,
             checksum=counts.checksum - before.checksum,
             counter=counts.counter - before.counter,
+            format=counts.format - before.format,
             foreign=counts.foreign - before.foreign - self._errors,
             errors=self._errors,
             frames_per_second=frames_per_second,

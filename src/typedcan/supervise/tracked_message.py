@@ -14,7 +14,7 @@ from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
-_FAULTS = ("length", "checksum", "counter repeated", "counter skipped", "counter invalid")
+_FAULTS = ("length", "checksum", "counter repeated", "counter skipped", "counter invalid", "format")
 _NOTHING: tuple[SupervisionEvent, ...] = ()
 _ALIVE = State.ALIVE
 
@@ -24,7 +24,7 @@ class TrackedMessage:
 
     ``period``, ``late`` and ``timeout`` are the expected period and the silence after which the
     message is late and lost, in seconds; infinite where it never is. Frames with a wrong length,
-    checksum or counter are counted in ``faults``.
+    checksum, counter or format are counted in ``faults``.
     """
 
     __slots__ = (

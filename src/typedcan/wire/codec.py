@@ -155,8 +155,7 @@ class Codec:
                 raise DecodeError(getattr(frame_id, "FRAME_ID", 0), data, str(error)) from None
         else:
             reader = self._find(frame_id, extended=extended)
-        reader.check(data, verify=verify)
-        return reader.decode(data)
+        return reader.decode(reader.payload(data, verify=verify))
 
     def _find(self, frame_id: int, *, extended: bool | None) -> Reader:
         reader = None if extended is False else self.readers.get(frame_id)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from typedcan.model.layout import bits_reader
+from typedcan.model.protocol import Aspect
 from typedcan.wire.message import Message
 from typedcan.wire.packing import Packer, packer_of
 from typedcan.wire.protocol import Protocol
@@ -19,13 +20,15 @@ Decoder = Callable[[Sequence[int]], Message]
 class Entry:
     """A message class with what packs its bits and what makes it from raw values.
 
-    ``counter`` reads the alive counter alone, where there is one.
+    ``counter`` reads the alive counter alone, where there is one; ``is_fd`` says that it has CAN FD
+    frames, None where the protocol says nothing of formats.
     """
 
     type: type[Message]
     packer: Packer
     decode: Decoder
     counter: Callable[[bytes], int] | None
+    is_fd: bool | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,4 +62,5 @@ def _entry(message: type[Message], protocol: Protocol) -> Entry:
         packer=packer_of(message.MODEL),
         decode=protocol.decoders[message],
         counter=bits_reader(counter, message.LENGTH) if counter else None,
+        is_fd=message.MODEL.is_fd if Aspect.FRAME_FORMATS in protocol.model.carries else None,
     )

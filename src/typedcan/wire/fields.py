@@ -13,10 +13,10 @@ from enum import IntEnum
 from typing import Any
 
 from typedcan.model.acting import ActingCodes
+from typedcan.model.plain import character, integer, real_number, shown, whole_number
 from typedcan.model.protocol import Signal
 from typedcan.model.signal_state import SignalState
 from typedcan.wire.errors import EncodeError
-from typedcan.wire.plain import character, integer, real_number, shown, whole_number
 
 Value = float | int | str | SignalState | None
 """What a field of a message can hold."""

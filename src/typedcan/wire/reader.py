@@ -25,8 +25,10 @@ class Reader:
 
     Attributes
     ----------
-    kind, length
-        The message class, and the bytes that a payload must have.
+    kind, length, frame_length
+        The message class, the bytes that a payload must have, and those of a filled-up frame.
+    other_format
+        Whether it is a CAN FD frame that would be one of another format; None where none is.
     verify, counter
         What tells whether the checksum in a payload of that length is right, and what reads its
         alive counter; None where there is none, or none that can be verified.
@@ -38,8 +40,10 @@ class Reader:
         "_decoded",
         "_unpack",
         "counter",
+        "frame_length",
         "kind",
         "length",
+        "other_format",
         "verify",
     )
 
@@ -48,15 +52,22 @@ class Reader:
         self._unpack = entry.packer.unpack
         self._decode = entry.decode
         self._decoded: dict[bytes, Message] = {}
-        self.length = kind.LENGTH
+        self.length, self.frame_length = kind.LENGTH, kind.MODEL.frame_length
+        self.other_format = None if entry.is_fd is None else not entry.is_fd
         self.counter = entry.counter
         self._algorithm = algorithms.get(kind.CHECKSUM.algorithm) if kind.CHECKSUM else None
         self.verify = _verifier(kind.CHECKSUM, self._algorithm)
 
-    def check(self, data: bytes, *, verify: bool = True) -> None:
-        """Raise `LengthError`, or `ChecksumError` unless ``verify`` is False."""
+    def payload(self, data: bytes, *, verify: bool = True) -> bytes:
+        """The payload in the bytes of a frame, without those that fill a CAN FD frame up.
+
+        Raises `LengthError`, and `ChecksumError` unless ``verify`` is False.
+        """
+        if len(data) == self.frame_length:
+            data = data[: self.length]
         if len(data) != self.length or (verify and self.verify and not self.verify(data)):
             raise self.refusal(data)
+        return data
 
     def refusal(self, data: bytes) -> LengthError | ChecksumError:
         """Why a payload is refused, with a wrong length or else a wrong checksum."""

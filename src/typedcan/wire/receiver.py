@@ -14,7 +14,7 @@ from typedcan.wire.message import Message, MessageT_co
 from typedcan.wire.protect import CounterFault, ReceiveCounters
 from typedcan.wire.reader import Reader
 
-FaultKind = Literal["length", "checksum", "counter"]
+FaultKind = Literal["length", "checksum", "counter", "format"]
 
 _new: Any = object.__new__
 
@@ -38,7 +38,7 @@ class Fault:
 
 
 class Received(Generic[MessageT_co]):
-    """A message, the frame that it came in, and what was wrong with its counter, if anything.
+    """A message, the frame that it came in, and what was wrong with counter or format, if anything.
 
     The message is decoded when it is read for the first time: many a frame is received only to be
     supervised, recorded or passed on.
@@ -48,7 +48,7 @@ class Received(Generic[MessageT_co]):
     kind
         The message class.
     data
-        The payload as it came.
+        The payload, without what fills up a CAN FD frame.
     frame, faults
         The frame, and what was wrong.
     """
@@ -59,7 +59,7 @@ class Received(Generic[MessageT_co]):
         self, message: MessageT_co, frame: can.Message, faults: tuple[Fault, ...] = ()
     ) -> None:
         self.kind = type(message)
-        self.data = bytes(frame.data)
+        self.data = bytes(frame.data)[: message.LENGTH]
         self.frame = frame
         self.faults = faults
         self._message: Any = message  # or the reader that will decode it
@@ -92,13 +92,14 @@ class Counts:
     Parameters
     ----------
     received
-        Messages, those with a wrong counter among them.
+        Messages, those with a wrong counter or format among them.
     foreign
         Frames that are none of the protocol's.
     length, checksum
         Frames of known messages that were refused.
-    counter
-        Messages with a wrong counter.
+    counter, format
+        Messages with a wrong counter, and those in frames of another format: classic CAN where the
+        protocol says CAN FD, or the other way round. Their bits are those of the message.
     """
 
     received: int = 0
@@ -106,11 +107,12 @@ class Counts:
     length: int = 0
     checksum: int = 0
     counter: int = 0
+    format: int = 0
 
     @property
     def faults(self) -> int:
         """All faults together."""
-        return self.length + self.checksum + self.counter
+        return self.length + self.checksum + self.counter + self.format
 
 
 class Receiver:
@@ -139,7 +141,11 @@ class Receiver:
             self._counts["foreign"] += 1
             return None
         data = bytes(frame.data)
-        if len(data) != reader.length or (reader.verify and not reader.verify(data)):
+        if len(data) != reader.length:
+            if len(data) != reader.frame_length:
+                return self._refused(reader, data, frame)
+            data = data[: reader.length]
+        if reader.verify and not reader.verify(data):
             return self._refused(reader, data, frame)
         self._received += 1
         # What every frame passes through is kept short: no call of a constructor.
@@ -152,14 +158,26 @@ class Receiver:
         if reader.counter:
             problem = self._counters.problem(reader.kind, reader.counter(data))
             if problem is not None:
-                self._counts["counter"] += 1
-                name = reader.kind.NAME
-                received.faults = (Fault("counter", name, problem.text, frame, problem.kind),)
+                fault = self._fault("counter", reader, problem.text, frame, problem.kind)
+                received.faults = (fault,)
+        if frame.is_fd == reader.other_format:
+            text = "came in a CAN FD frame" if frame.is_fd else "came in a frame of classic CAN"
+            received.faults += (self._fault("format", reader, text, frame),)
         return received
 
     def _refused(self, reader: Reader, data: bytes, frame: can.Message) -> Fault:
         """Why a frame of a known message is refused."""
         error = reader.refusal(data)
         kind: FaultKind = "length" if isinstance(error, LengthError) else "checksum"
+        return self._fault(kind, reader, error.brief, frame)
+
+    def _fault(
+        self,
+        kind: FaultKind,
+        reader: Reader,
+        text: str,
+        frame: can.Message,
+        counter: CounterFault | None = None,
+    ) -> Fault:
         self._counts[kind] += 1
-        return Fault(kind, reader.kind.NAME, error.brief, frame)
+        return Fault(kind, reader.kind.NAME, text, frame, counter)
