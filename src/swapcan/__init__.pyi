@@ -41,15 +41,17 @@ from typedcan.wire.errors import (
     EncodeError as EncodeError,
     LengthError as LengthError,
     ReceiveTimeoutError as ReceiveTimeoutError,
-    RequestError as RequestError,
-    RequestTimeoutError as RequestTimeoutError,
     SendingError as SendingError,
-    StillActingError as StillActingError,
-    TransferError as TransferError,
     UnknownFrameError as UnknownFrameError,
     UnknownMessageError as UnknownMessageError,
     UnknownNodeError as UnknownNodeError,
 )
+from typedcan.node.errors import (
+    RequestError as RequestError,
+    RequestTimeoutError as RequestTimeoutError,
+    StillActingError as StillActingError,
+)
+from typedcan.wire.errors import TransferError as TransferError
 from typedcan.wire.link import (
     Counts as Counts,
     Fault as Fault,

@@ -21,7 +21,8 @@ from swapcan.messages import (
     HvRequest,
     ThermalMode,
 )
-from typedcan.wire.acting import SentCommands, acting_fields, acts, safe_codes, what_acts
+from typedcan.node.commanded import SentCommands
+from typedcan.wire.acting import acting_fields, acts, safe_codes, what_acts
 from typedcan.wire.message import Message
 
 TABLE = {

@@ -37,7 +37,7 @@ from swapcan.messages import (
     V2B_RQData,
 )
 from swapcan.node import Event, Node, NodeFailed, SendingError
-from typedcan.wire.errors import RequestError
+from typedcan.node.errors import RequestError
 
 ON = V2B_CMD(hv_on_off=HvCommand.HV_ON)
 CHARGE = B2C_Charger(charge_control=ChargeControl.START_TO_CHARGE)

@@ -23,8 +23,8 @@ from swapcan.messages import (
 from swapcan.node import Node
 from swapcan.node.answers import BatteryInfo
 from swapcan.transfer import PackCode, Vin, split_pack_code, split_vin
+from typedcan.node.errors import RequestError, RequestTimeoutError
 from typedcan.node.request import Pending
-from typedcan.wire.errors import RequestError, RequestTimeoutError
 
 CODE = "001PB0A1234567890123ABCD"
 VIN = "LSVAA4187E2184847"

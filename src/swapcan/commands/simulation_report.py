@@ -27,13 +27,13 @@ from typing import Any
 from swapcan.node.answers import BatteryInfo
 from swapcan.nodes.simulation import Simulation
 from typedcan.commands.transcript import faults_text
+from typedcan.node.errors import RequestError
 from typedcan.node.events import BusBack, BusLost, NodeFailed, ReceiveFailed, SendFailed
 from typedcan.node.node import Node
 from typedcan.node.request import Pending
 from typedcan.shell.console import say
 from typedcan.simulate.shared_bus import SharedBus
 from typedcan.supervise import NotSeen, SignalChanged, StateChanged
-from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Fault
 from typedcan.wire.message import Message
 

@@ -11,8 +11,9 @@ import can
 from typedcan.drive.frame_times import FrameTimes
 from typedcan.drive.in_order import InOrder
 from typedcan.model.errors import TypedcanError
+from typedcan.node.commanded import SentCommands
 from typedcan.simulate.echoes import Echoes
-from typedcan.wire.acting import SentCommands, acting_fields, acts
+from typedcan.wire.acting import acting_fields, acts
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message

@@ -8,9 +8,9 @@ import time
 from contextlib import suppress
 
 from typedcan.model.errors import one_line
+from typedcan.node.errors import StillActingError
 from typedcan.node.port import Port
 from typedcan.node.transmit import Transmitter
-from typedcan.wire.errors import StillActingError
 
 _TIMES = 5
 """How often the safe codes are sent: one frame can get lost."""

@@ -10,6 +10,7 @@ import can
 from typedcan.node.answers import Collector, MessageCollector, TransferCollector
 from typedcan.node.cycles import Maker
 from typedcan.node.engine import Engine, Leave
+from typedcan.node.errors import RequestError
 from typedcan.node.request import Pending
 from typedcan.node.running import Running
 from typedcan.supervise import State, Supervisor
@@ -17,7 +18,6 @@ from typedcan.supervise.snapshot import Snapshot
 from typedcan.transfer import Transfers
 from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.codec import Codec
-from typedcan.wire.errors import RequestError
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protocol import Protocol

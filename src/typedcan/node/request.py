@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Any, Generic, TypeVar
 
 from typedcan.node.answers import Collector
-from typedcan.wire.errors import RequestError, RequestTimeoutError
+from typedcan.node.errors import RequestError, RequestTimeoutError
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Request

@@ -9,8 +9,8 @@ from types import TracebackType
 from typing import Self
 
 from typedcan.node.engine import Engine
+from typedcan.node.errors import StillActingError
 from typedcan.node.transmit import Sends
-from typedcan.wire.errors import StillActingError
 from typedcan.wire.message import Message
 
 _LOG = logging.getLogger("swapcan")
