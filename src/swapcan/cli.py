@@ -9,14 +9,7 @@ from swapcan.commands import HELP
 from typedcan.shell import command_line
 from typedcan.shell.command_line import Parser, Program, Subcommands
 
-_FOR_ANY_PROTOCOL = {
-    "convert": "typedcan",
-    "decode": "typedcan",
-    "listen": "swapcan",
-    "monitor": "typedcan",
-    "plot": "typedcan",
-    "send": "swapcan",
-}
+_FOR_ANY_PROTOCOL = ("convert", "decode", "listen", "monitor", "plot", "send")
 
 _EXAMPLES = """examples:
   swapcan demo                                        a pack and a truck on a virtual bus
@@ -42,7 +35,7 @@ def _add(commands: Subcommands[Parser], name: str) -> None:
     if name in _FOR_ANY_PROTOCOL:
         from swapcan.commands.tool import TOOL
 
-        import_module(f"{_FOR_ANY_PROTOCOL[name]}.commands.{name}").command(TOOL).add(commands)
+        import_module(f"typedcan.commands.{name}").command(TOOL).add(commands)
     else:
         import_module(f"swapcan.commands.{name}").COMMAND.add(commands)
 

@@ -1,8 +1,7 @@
-"""Consent to what moves contactors: who would send codes that act, and whether they may."""
+"""Who would send codes that act, and what is said where they did."""
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterable
 
 from swapcan._generated.protocol import PROTOCOL
@@ -13,11 +12,6 @@ LIVE = "TAKE IT FOR LIVE, switch it off by other means"
 
 HUNG = "the program stands still: what acts was ended; Ctrl-C, or else kill -9, ends the program"
 """What is said where a driver, a recorder or an output does not come back."""
-
-
-def add_consent(group: argparse._ActionsContainer, text: str) -> None:
-    """Add the option without which nothing that acts is sent on a real interface."""
-    group.add_argument("--yes-drive-the-bus", action="store_true", help=text)
 
 
 def acting_nodes(names: Iterable[str]) -> tuple[str, ...]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 from functools import partial
 
-from swapcan.commands.driving import add_consent
-from typedcan.commands.bus_options import add_bus_options, is_virtual, open_bus
+from typedcan.commands.bus_options import add_consent, add_bus_options, is_virtual, open_bus
 from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.commands.transcript import values_text
 from typedcan.commands.values import message_named, message_of
@@ -64,7 +63,8 @@ def _run(tool: Tool, options: argparse.Namespace) -> int:
         frame = Link(bus, codec).send(message, timeout=_TIMEOUT)
     sent = codec.decode_frame(frame)
     data = frame.data.hex(" ").upper()
-    say("  ".join((f"0x{frame.arbitration_id:08X}", f"[{data}]", sent.NAME, *values_text(sent))))
+    number = f"0x{frame.arbitration_id:0{8 if frame.is_extended_id else 3}X}"
+    say("  ".join((number, f"[{data}]", sent.NAME, *values_text(sent))))
     return 0
 
 

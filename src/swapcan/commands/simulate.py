@@ -10,7 +10,6 @@ from typing import TypeVar
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from swapcan.commands.driving import add_consent
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
 from swapcan.nodes.faults import FAULTS, able_nodes, planned_fault
 from swapcan.nodes.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of

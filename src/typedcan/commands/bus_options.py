@@ -42,6 +42,11 @@ def add_bus_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_consent(group: argparse._ActionsContainer, text: str) -> None:
+    """Add the option without which nothing that acts is sent on a real interface."""
+    group.add_argument("--yes-drive-the-bus", action="store_true", help=text)
+
+
 def open_bus(options: argparse.Namespace, *, virtual: bool = False) -> can.BusABC:
     """The bus that the options name; raises `CommandError` where it cannot be opened.
 
