@@ -8,12 +8,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import can
 import pyarrow.parquet as pq
 import pytest
 
 import typedcan
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
+WIDTHS = FIXTURES / "databases" / "both.dbc"
+GROUP = "239.74.163.77"
 PACK = FIXTURES / "logs" / "pack.log"
 TYPEDCAN = (
     "import sys; sys.modules['swapcan'] = None; sys.modules['dbcspec'] = None\n"
@@ -25,15 +28,19 @@ DBCSPEC = (
 )
 
 
+def environment() -> dict[str, str]:
+    source = Path(typedcan.__file__).parents[1]
+    paths = [str(source), str(source.parent / "generator")]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONUTF8": "1"}
+
+
 def run(
     *arguments: object, program: str = TYPEDCAN, folder: Path | None = None, status: int = 0
 ) -> subprocess.CompletedProcess[str]:
-    source = Path(typedcan.__file__).parents[1]
-    paths = [str(source), str(source.parent / "generator")]
     done = subprocess.run(
         [sys.executable, "-c", program, *map(str, arguments)],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONUTF8": "1"},
+        env=environment(),
         capture_output=True,
         text=True,
         timeout=60,
@@ -135,6 +142,58 @@ def test_the_code_of_a_package_that_fails_is_one_line(tmp_path: Path) -> None:
 
 
 def test_help_needs_no_protocol_and_has_examples() -> None:
-    for command in ("", "decode", "convert", "plot"):
+    for command in ("", "decode", "convert", "plot", "listen", "send"):
         done = run(*filter(None, [command]), "--help")
         assert "examples:\n  python -m typedcan " in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (("SHORTID", "left=7"), "0x100  [07]  SHORTID  left=7"),
+        (("longid", "Right=0x10"), "0x00000100  [10]  LONGID  right=16"),
+    ],
+)
+def test_send_sends_messages_of_both_widths(words: tuple[str, ...], line: str) -> None:
+    done = run("--dbc", WIDTHS, "send", *words, "-i", "virtual", "-c", "any-protocol")
+    assert done.stdout == f"{line}\n"
+
+
+def test_a_database_does_not_say_what_acts_so_that_sending_needs_consent() -> None:
+    send = ("--dbc", WIDTHS, "send", "SHORTID", "left=7", "-i", "udp_multicast", "-c", GROUP)
+    done = run(*send, status=2)
+    assert done.stderr == (
+        "typedcan: SHORTID may make its receiver act: nothing is known of codes that do:"
+        " not sent without --yes-drive-the-bus\n"
+    )
+    with can.Bus(GROUP, "udp_multicast") as bus:
+        done = run(*send, "--yes-drive-the-bus")
+        assert done.stdout == "0x100  [07]  SHORTID  left=7\n"
+        assert done.stderr == "typedcan: looking for another AA for 2 s\n"
+        frame = bus.recv(5)
+    assert frame is not None
+    assert (frame.arbitration_id, frame.is_extended_id, bytes(frame.data)) == (0x100, False, b"\7")
+
+
+def test_listen_prints_messages_of_both_widths_as_they_arrive() -> None:
+    arguments = ("--dbc", WIDTHS, "listen", "-i", "udp_multicast", "-c", GROUP, "--count", "2")
+    with (
+        can.Bus(GROUP, "udp_multicast") as bus,
+        subprocess.Popen(
+            [sys.executable, "-c", TYPEDCAN, *map(str, arguments)],
+            env=environment(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as listening,
+    ):
+        assert listening.stderr is not None
+        assert "listening on" in listening.stderr.readline()
+        for extended in (False, True):
+            bus.send(can.Message(arbitration_id=0x100, is_extended_id=extended, data=[5]))
+        printed, summary = listening.communicate(timeout=30)
+    assert [line.split()[2:] for line in printed.splitlines()] == [
+        ["SHORTID", "left=5"],
+        ["LONGID", "right=5"],
+    ]
+    assert summary.startswith("typedcan: frames 2, decoded 2, unknown 0")

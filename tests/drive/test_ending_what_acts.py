@@ -23,7 +23,7 @@ from swapcan.messages import (
 )
 from swapcan.wire import Codec
 from typedcan.drive.noting_bus import EndedError, NotingBus
-from typedcan.wire.clock import SimulatedClock
+from typedcan.node.clock import SimulatedClock
 from typedcan.wire.message import Message
 
 

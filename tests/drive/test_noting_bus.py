@@ -10,8 +10,8 @@ import pytest
 from swapcan.messages import V2B_CMD
 from swapcan.wire import Codec
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.node.clock import SimulatedClock, SystemClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.wire.clock import SimulatedClock, SystemClock
 
 
 class Given(can.BusABC):

@@ -17,7 +17,7 @@ from swapcan.scenarios.scenario import ScenarioError
 from swapcan.scenarios.stage import Left
 from swapcan.wire import Codec
 from typedcan.drive.noting_bus import NotingBus
-from typedcan.wire.clock import SimulatedClock
+from typedcan.node.clock import SimulatedClock
 
 NUMBER = V2B_CMD.FRAME_ID
 OWN = encode(V2B_CMD(hv_on_off=HvCommand.HV_OFF, vehicle_speed=0.0), counter=3)

@@ -20,9 +20,9 @@ from swapcan.wire import Codec
 from typedcan.drive import driving, watchdog
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.drive.watchdog import HungError, Watchdog
+from typedcan.node.clock import SimulatedClock, SystemClock
 from typedcan.shell.recording import Recording
 from typedcan.simulate.world import World
-from typedcan.wire.clock import SimulatedClock, SystemClock
 
 ENOUGH = 20.0
 """Seconds after which a test has failed, on a busy machine too."""

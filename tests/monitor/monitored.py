@@ -16,7 +16,7 @@ from typedcan.monitor.picture import Picture
 from typedcan.monitor.rows import MessageRow, SignalRow
 from typedcan.monitor.session import Session
 from typedcan.monitor.watch import Watch
-from typedcan.wire.clock import SimulatedClock
+from typedcan.node.clock import SimulatedClock
 
 _DBC = Path(__file__).parents[2] / "dbc" / "caamtb-swap.dbc"
 _XOR_IN_BYTE_0 = ("V2B_CMD", "V2B_RQData", "B2V_ST1", *(f"B2V_SysCode{n}" for n in range(1, 5)))

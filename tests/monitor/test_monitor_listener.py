@@ -17,8 +17,8 @@ from swapcan import Codec
 from typedcan.monitor.listener import Listener
 from typedcan.monitor.session import Session
 from typedcan.monitor.watch import Watch
+from typedcan.node.clock import SystemClock
 from typedcan.node.events import BusBack, BusLost
-from typedcan.wire.clock import SystemClock
 
 
 def wait_for(condition: Callable[[], bool]) -> None:

@@ -12,7 +12,7 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import BMS_TMS_0, B2C_Charger, ChargeControl, HvRequest
 from swapcan.node import Node
-from typedcan.wire.clock import SimulatedClock
+from typedcan.node.clock import SimulatedClock
 from typedcan.wire.message import Message
 
 

@@ -13,8 +13,8 @@ import can
 
 from swapcan.nodes.plan import plan_of
 from swapcan.nodes.simulation import Simulation
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.shared_bus import SharedBus
-from typedcan.wire.clock import SimulatedClock
 
 
 def main(names: str, plan: str, bus_options: str) -> None:

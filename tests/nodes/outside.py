@@ -11,8 +11,8 @@ import can
 from swapcan import Fault, Link, Received
 from swapcan.nodes.world import Participant, World
 from swapcan.wire import Receiver
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message
 
 MessageT = TypeVar("MessageT", bound=Message)

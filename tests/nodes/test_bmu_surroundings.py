@@ -26,8 +26,8 @@ from swapcan.messages import (
 from swapcan.nodes.bmu import Bmu
 from swapcan.nodes.world import World
 from swapcan.plant.battery import Battery
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.wire.clock import SimulatedClock
 
 
 def test_the_truck_draws_more_the_faster_it_drives_but_never_more_than_allowed(

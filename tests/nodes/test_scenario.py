@@ -16,8 +16,8 @@ from swapcan.nodes.plan import plan_of
 from swapcan.nodes.simulation import Simulation
 from swapcan.nodes.vcu import Vcu
 from swapcan.nodes.world import World
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.wire.clock import SimulatedClock
 
 PLAN = "hv_on@0.5s, ask@1s, drive@2s+8s, charge@14s+6s, hv_off@21s"
 

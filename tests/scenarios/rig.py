@@ -12,8 +12,8 @@ from swapcan.messages import V2B_CMD
 from swapcan.nodes.bmu import Bmu
 from swapcan.scenarios.scenario import Scenario
 from swapcan.scenarios.stage import Stage
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.wire.clock import SimulatedClock
 
 MOST_SECONDS = 120.0
 """Longer than any scenario: a clock that goes further is one that nobody stops."""

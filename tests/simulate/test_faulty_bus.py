@@ -13,9 +13,9 @@ from defaults import default_of
 from swapcan import Link
 from swapcan.messages import B2V_ST1, B2V_ST2, BMS_TMS_0, BSU_BMS_0, V2B_CMD, V2B_RQData
 from swapcan.nodes.faults import FaultyBus
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.times import PlanError
-from typedcan.wire.clock import SimulatedClock
 
 
 @pytest.fixture

@@ -8,8 +8,8 @@ from contextlib import ExitStack
 import can
 import pytest
 
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.wire.clock import SimulatedClock
 
 
 @pytest.fixture

@@ -14,12 +14,12 @@ from swapcan import Fault
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.node import Node
 from swapcan.nodes.faults import FaultyBus
+from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.world import World
 from typedcan.supervise import State, StateChanged
-from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.message import Message
 
 CYCLIC = [message for message in PROTOCOL.messages if message.PERIOD]

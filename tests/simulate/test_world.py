@@ -17,10 +17,10 @@ from swapcan.nodes import world as line_world
 from swapcan.nodes.bsu import Bsu
 from swapcan.nodes.simulation import Simulation
 from swapcan.nodes.tms import Tms
+from typedcan.node.clock import SimulatedClock, SystemClock
 from typedcan.simulate.participant import Participant, UnknownFaultError
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.world import World
-from typedcan.wire.clock import SimulatedClock, SystemClock
 
 
 class Stopwatch(Participant):

@@ -19,10 +19,10 @@ from swapcan import StillActingError
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import V2B_CMD, HvCommand
 from swapcan.node import Node
+from typedcan.node.clock import Clock, SimulatedClock, SystemClock
 from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.world import World
-from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 
 
 class Driver(Participant):

@@ -16,6 +16,7 @@ from swapcan.nodes.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.nodes.simulation import check
 from typedcan.commands.bus_options import (
     add_bus_options,
+    add_consent,
     assignment,
     bus_name,
     is_virtual,

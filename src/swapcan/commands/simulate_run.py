@@ -18,11 +18,11 @@ from swapcan.wire import Codec
 from typedcan.drive.departure import Departure
 from typedcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.node.clock import SystemClock
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.simulate.faults import PlannedFault
 from typedcan.simulate.shared_bus import SharedBus
-from typedcan.wire.clock import SystemClock
 
 
 def allowed_nodes(

@@ -11,9 +11,9 @@ from swapcan.node.answers import BatteryInfo, BatteryInfoCollector, Event
 from swapcan.transfer import PackCode, PackCodeAssembler, Transfers, Vin, VinAssembler
 from typedcan.node import node
 from typedcan.node.answers import TransferCollector
+from typedcan.node.clock import Clock
 from typedcan.node.engine import Leave
 from typedcan.node.request import Pending
-from typedcan.wire.clock import Clock
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol

@@ -57,8 +57,8 @@ from swapcan.plant.sensors import (
     SENSOR_FAILURE,
 )
 from swapcan.transfer import Vin, split_pack_code
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import State
-from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message, SignalState
 

@@ -11,7 +11,7 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import BSU_BMS_0, ConnectorState, LockState, WarningLevel
 from swapcan.node import Node
 from swapcan.nodes.world import Participant
-from typedcan.wire.clock import Clock, SystemClock
+from typedcan.node.clock import Clock, SystemClock
 
 _AMBIENT = 31.0
 _HOT = 100.0

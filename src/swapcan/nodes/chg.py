@@ -19,8 +19,8 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.nodes.world import Participant
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import NotSeen, State, StateChanged
-from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
 from typedcan.wire.message import SignalState
 

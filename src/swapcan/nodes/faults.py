@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from typedcan.node.clock import Clock
 from typedcan.simulate import faulty_bus
 from typedcan.simulate.faults import FaultKind, Faults
-from typedcan.wire.clock import Clock
 from typedcan.wire.protect import Algorithm
 from typedcan.wire.protocol import Protocol
 

@@ -20,10 +20,10 @@ from swapcan.nodes.tms import Tms
 from swapcan.nodes.vcu import VIN, Vcu
 from swapcan.nodes.world import World
 from swapcan.plant.battery import Battery
+from typedcan.node.clock import Clock, SimulatedClock, SystemClock
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.times import PlanError
-from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 
 _MASK = 0x1FFF_FFFF
 _NOBODYS = 0

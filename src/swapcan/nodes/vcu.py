@@ -33,9 +33,9 @@ from swapcan.node.answers import BatteryInfo
 from swapcan.nodes.world import Participant
 from swapcan.plant.driving import Motion, Power, Profile, Trip, shuttle
 from swapcan.transfer import PackCode, split_vin
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged
-from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message, SignalState
 

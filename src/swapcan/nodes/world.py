@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swapcan.plant.line import Line
+from typedcan.node.clock import Clock
 from typedcan.node.node import Node
 from typedcan.simulate import participant, world
 from typedcan.simulate.simulated_bus import SimulatedWire
-from typedcan.wire.clock import Clock
 
 
 class Participant(participant.Participant):

@@ -14,11 +14,11 @@ from swapcan.scenarios.scenario import Scenario, ScenarioError
 from swapcan.wire import Codec
 from typedcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.simulate.echoes import Echoes
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from typedcan.simulate.shared_bus import SharedBus
 from typedcan.simulate.simulated_bus import SimulatedWire
-from typedcan.wire.clock import Clock, SystemClock
 
 __all__ = ["LEAVING", "LOOK_OUT", "Left", "Stage"]
 

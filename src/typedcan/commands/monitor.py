@@ -23,9 +23,9 @@ from typedcan.model.errors import one_line
 from typedcan.monitor.listener import Listener
 from typedcan.monitor.session import Recorded, Session
 from typedcan.monitor.watch import Watch
+from typedcan.node.clock import SystemClock
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, count, note, seconds
-from typedcan.wire.clock import SystemClock
 
 _TICK = 0.05
 """Seconds between two looks at what happened."""

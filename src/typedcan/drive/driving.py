@@ -17,10 +17,10 @@ from typedcan.drive.departure import Departure
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.drive.watchdog import Watchdog
 from typedcan.model.errors import TypedcanError
+from typedcan.node.clock import Clock
 from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedWire
 from typedcan.simulate.world import World
-from typedcan.wire.clock import Clock
 from typedcan.wire.message import Message
 
 LOOK_OUT = 2.0

@@ -7,7 +7,7 @@ import time
 
 import can
 
-from typedcan.wire.clock import Clock, SystemClock
+from typedcan.node.clock import Clock, SystemClock
 
 _NO_TIME = 3600.0
 """Seconds between an adapter's time and the system's, as they were at first, that cannot be."""

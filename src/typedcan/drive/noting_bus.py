@@ -11,10 +11,10 @@ import can
 from typedcan.drive.frame_times import FrameTimes
 from typedcan.drive.in_order import InOrder
 from typedcan.model.errors import TypedcanError
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.commanded import SentCommands
 from typedcan.simulate.echoes import Echoes
 from typedcan.wire.acting import acting_fields, acts
-from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message
 

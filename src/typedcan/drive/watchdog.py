@@ -11,7 +11,7 @@ from typing import Self
 
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.model.errors import TypedcanError
-from typedcan.wire.clock import Clock, SystemClock
+from typedcan.node.clock import Clock, SystemClock
 
 _PATIENCE = 2.0
 """Seconds without a beat after which the program counts as hanging."""

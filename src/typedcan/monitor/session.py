@@ -12,9 +12,9 @@ import can
 
 from typedcan.monitor.picture import Picture
 from typedcan.monitor.watch import Watch, WatchEvent
+from typedcan.node.clock import Clock
 from typedcan.node.events import BusBack, BusLost
 from typedcan.shell.recording import Recording, RecordingError
-from typedcan.wire.clock import Clock
 from typedcan.wire.link import Fault
 
 _EVENTS = 10_000

@@ -10,11 +10,11 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from typedcan.node.bus_timers import BusTimers, has_timers
+from typedcan.node.clock import Clock
 from typedcan.node.port import Port
 from typedcan.node.schedule import Schedule
 from typedcan.node.transmit import Transmitter
 from typedcan.wire.acting import acting_fields
-from typedcan.wire.clock import Clock
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message
 

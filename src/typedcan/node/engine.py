@@ -14,6 +14,7 @@ from typing import Literal
 import can
 
 from typedcan.model.errors import TypedcanError, one_line
+from typedcan.node.clock import Clock
 from typedcan.node.errors import StillActingError
 from typedcan.node.events import Dispatcher, NodeFailed
 from typedcan.node.inbox import Hearer, Inbox
@@ -28,7 +29,6 @@ from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.supervise import Supervisor
 from typedcan.transfer import Transfers
 from typedcan.wire.acting import acting_fields
-from typedcan.wire.clock import Clock
 from typedcan.wire.codec import Codec
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message

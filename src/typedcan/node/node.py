@@ -8,6 +8,7 @@ from typing import Any, TypeVar, overload
 import can
 
 from typedcan.node.answers import Collector, MessageCollector, TransferCollector
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.cycles import Maker
 from typedcan.node.engine import Engine, Leave
 from typedcan.node.errors import RequestError
@@ -16,7 +17,6 @@ from typedcan.node.running import Running
 from typedcan.supervise import State, Supervisor
 from typedcan.supervise.snapshot import Snapshot
 from typedcan.transfer import Transfers
-from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message, MessageT

@@ -8,11 +8,11 @@ import math
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 
+from typedcan.node.clock import Clock
 from typedcan.node.cycles import Cycles, Maker, Source, frames_of
 from typedcan.node.life import Life
 from typedcan.node.port import Port
 from typedcan.node.transmit import Transmitter
-from typedcan.wire.clock import Clock
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol

@@ -10,8 +10,8 @@ from contextlib import suppress
 import can
 
 from typedcan.model.errors import one_line
+from typedcan.node.clock import Clock
 from typedcan.node.events import BusBack, BusLost
-from typedcan.wire.clock import Clock
 
 _FIRST_RETRY = 0.05
 _LAST_RETRY = 2.0

@@ -10,12 +10,12 @@ from collections import deque
 import can
 
 from typedcan.model.errors import one_line
+from typedcan.node.clock import Clock
 from typedcan.node.events import BusBack, BusLost, Dispatcher, ReceiveFailed, SendFailed
 from typedcan.node.inbox import Inbox
 from typedcan.node.life import Life
 from typedcan.node.port import Port
 from typedcan.node.request import Requests
-from typedcan.wire.clock import Clock
 
 Notice = BusLost | BusBack | SendFailed | ReceiveFailed
 """What is noticed in any thread, and told in the one that receives."""

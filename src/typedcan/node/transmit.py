@@ -9,11 +9,11 @@ from typing import Literal
 import can
 
 from typedcan.model.errors import one_line
+from typedcan.node.clock import Clock
 from typedcan.node.commanded import SentCommands
 from typedcan.node.events import SendFailed
 from typedcan.node.port import Port
 from typedcan.wire.acting import acts
-from typedcan.wire.clock import Clock
 from typedcan.wire.codec import Codec
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message

@@ -11,9 +11,9 @@ from typing import Any
 
 import can
 
+from typedcan.node.clock import Clock, SystemClock
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from typedcan.simulate.times import PlanError
-from typedcan.wire.clock import Clock, SystemClock
 from typedcan.wire.database import database
 from typedcan.wire.message import Message
 from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed

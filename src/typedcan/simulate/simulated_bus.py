@@ -7,7 +7,7 @@ from queue import Empty, SimpleQueue
 
 import can
 
-from typedcan.wire.clock import Clock
+from typedcan.node.clock import Clock
 
 
 class SimulatedWire:

@@ -12,11 +12,11 @@ from types import TracebackType
 from typing import Self
 
 from typedcan.model.errors import one_line
+from typedcan.node.clock import Clock, SimulatedClock, SystemClock
 from typedcan.node.errors import StillActingError
 from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedWire
-from typedcan.wire.clock import Clock, SimulatedClock, SystemClock
 from typedcan.wire.errors import SendingError
 
 STEP = 0.01

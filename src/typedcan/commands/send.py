@@ -5,16 +5,16 @@ from __future__ import annotations
 import argparse
 from functools import partial
 
-from typedcan.commands.bus_options import add_consent, add_bus_options, is_virtual, open_bus
+from typedcan.commands.bus_options import add_bus_options, add_consent, is_virtual, open_bus
 from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.commands.transcript import values_text
 from typedcan.commands.values import message_named, message_of
 from typedcan.drive.driving import LOOK_OUT, Driving
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.node.clock import SystemClock
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, note, say
 from typedcan.wire.acting import what_acts
-from typedcan.wire.clock import SystemClock
 from typedcan.wire.link import Link
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
