@@ -12,11 +12,11 @@ from node.bench import Recorder
 from transfer.rack import DOCS, project, rack
 
 from typedcan.model.transfers.blocks import NumberedBlocks
+from typedcan.node.clock import SimulatedClock
+from typedcan.node.errors import RequestError, TransferError
 from typedcan.node.node import Node
 from typedcan.transfer import Blocks, Problem, Readings, Text, Transfers, split
-from typedcan.wire.clock import SimulatedClock
 from typedcan.wire.dynamic import typed_protocol
-from typedcan.wire.errors import RequestError, TransferError
 from typedcan.wire.message import Message
 
 SERIAL = Text("serial", "A1B2C3", {"maker": 2})
