@@ -21,7 +21,7 @@ from pathlib import Path
 
 import can
 import numpy as np
-from conform.recorded import block_of, recorded
+from rules.recorded import block_of, recorded
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judge, judge_log

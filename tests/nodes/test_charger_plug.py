@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from conform.recorded import recorded
+from rules.recorded import recorded
 
 import swapcan
 from swapcan.messages import B2V_ST1, ChargeLine, ChargeState

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import can
 import pytest
-from conform.recorded import written
+from rules.recorded import written
 from scenarios.lines import said, values
 from scenarios.rig import Altered, believe_any_checksum, bench, take_off_for_on
 

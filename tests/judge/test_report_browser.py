@@ -13,7 +13,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
-from conform.report_samples import EMPTY, GOOD, HOSTILE, MOMENT, PLAIN, hostile
+from judge.report_samples import EMPTY, GOOD, HOSTILE, MOMENT, PLAIN, hostile
 
 from typedcan.judge.report import to_html
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 import yaml
-from conform.in_blocks import ALL, candump, found, result_of
+from rules.in_blocks import ALL, candump, found, result_of
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Status, rule_of

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import can
 import pytest
-from conform.recorded import recorded, written
+from rules.recorded import recorded, written
 
 from swapcan.conform import Judge, Judgement, Status, judge_log, rule_of
 from swapcan.messages import (

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from conform.alterations import ALTERATIONS, CSCS, PLAN, SECONDS
-from conform.in_blocks import broken, judged_by_all
-from conform.recorded import recorded
+from rules.alterations import ALTERATIONS, CSCS, PLAN, SECONDS
+from rules.in_blocks import broken, judged_by_all
+from rules.recorded import recorded
 
 from swapcan.conform import RULES
 

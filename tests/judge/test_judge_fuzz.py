@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from conform.in_blocks import broken
-from conform.recorded import block_of, recorded
+from rules.in_blocks import broken
+from rules.recorded import block_of, recorded
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Judge, Judgement

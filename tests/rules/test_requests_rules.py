@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.in_blocks import candump, essence, found, result_of
-from conform.recorded import recorded, written
+from rules.in_blocks import candump, essence, found, result_of
+from rules.recorded import recorded, written
 
 from swapcan.conform import Status, judge_log, rule_of
 

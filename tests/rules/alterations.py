@@ -6,7 +6,7 @@ for, where one wrong thing is wrong in two ways.
 
 from __future__ import annotations
 
-from conform.altered import (
+from rules.altered import (
     Alteration,
     added,
     again,

@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
-from conform.in_blocks import ALL, result_of
+from rules.in_blocks import ALL, result_of
 
 import swapcan.rules
 import typedcan.judge.rules

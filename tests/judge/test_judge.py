@@ -8,8 +8,8 @@ from pathlib import Path
 import can
 import numpy as np
 import pytest
-from conform.altered import byte, lost
-from conform.recorded import recorded, written
+from rules.altered import byte, lost
+from rules.recorded import recorded, written
 
 from swapcan.conform import (
     RULES,

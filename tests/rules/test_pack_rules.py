@@ -9,10 +9,10 @@ import can
 import cantools
 import pytest
 from cantools.database.can import Database
-from conform.altered import signals
-from conform.handmade import Bench, Sketch, at, every
-from conform.in_blocks import judged
-from conform.recorded import recorded, written
+from rules.altered import signals
+from rules.handmade import Bench, Sketch, at, every
+from rules.in_blocks import judged
+from rules.recorded import recorded, written
 
 from swapcan.conform import Judgement
 from swapcan.messages import B2V_ST0, B2V_ST1

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conform.in_blocks import broken, judged_by_all
-from conform.recorded import recorded
+from rules.in_blocks import broken, judged_by_all
+from rules.recorded import recorded
 
 from swapcan.conform import RULES, Judgement, Severity, Status, Verdict
 from swapcan.simulate import FAULTS, planned_fault

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.altered import database
-from conform.in_blocks import ALL, candump, found, result_of
+from rules.altered import database
+from rules.in_blocks import ALL, candump, found, result_of
 
 from swapcan.conform import rule_of
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.handmade import Bench, at, every
-from conform.in_blocks import judged
-from conform.recorded import recorded, written
+from rules.handmade import Bench, at, every
+from rules.in_blocks import judged
+from rules.recorded import recorded, written
 
 from swapcan.conform import Severity
 from swapcan.rules.told import RULES

@@ -11,7 +11,7 @@ from typing import Any
 
 import can
 import pytest
-from conform.recorded import recorded, written
+from rules.recorded import recorded, written
 from scenarios.lines import line
 
 from swapcan import cli

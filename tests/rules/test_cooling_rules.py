@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.handmade import Bench, Sketch, at, every
+from rules.handmade import Bench, Sketch, at, every
 
 from swapcan.rules.cooling import RULES
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import can
-from conform.recorded import block_of
+from rules.recorded import block_of
 
 from swapcan.conform import Judge, Judgement, Rule, RuleResult
 from typedcan.logs.read import open_log

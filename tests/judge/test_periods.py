@@ -10,7 +10,7 @@ from random import Random
 import can
 import numpy as np
 import pytest
-from conform.recorded import written
+from rules.recorded import written
 
 from swapcan.conform import Judge
 from swapcan.messages import B2V_ST1, BSU_BMS_0, V2B_CMD, B2V_BattInfo1, B2V_Temp, B2V_Ucell

@@ -7,16 +7,7 @@ import unicodedata
 from dataclasses import replace
 
 import pytest
-from conform.report_samples import (
-    DELAY,
-    EMPTY,
-    GOOD,
-    HOSTILE,
-    PLAIN,
-    hostile,
-    result,
-    rule,
-)
+from judge.report_samples import DELAY, EMPTY, GOOD, HOSTILE, PLAIN, hostile, result, rule
 
 from swapcan.conform import Judgement, Severity, Verdict
 from typedcan.judge.report import overall, summary

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import pytest
-from conform.in_blocks import candump, essence, found, result_of
-from conform.recorded import recorded, written
+from rules.in_blocks import candump, essence, found, result_of
+from rules.recorded import recorded, written
 
 from swapcan.conform import Rule, Status, judge_log, rule_of
 from swapcan.rules.texts import RULES as TEXTS

@@ -8,8 +8,8 @@ from operator import xor
 from pathlib import Path
 
 import pytest
-from conform.altered import database
-from conform.in_blocks import ALL, candump, result_of
+from rules.altered import database
+from rules.in_blocks import ALL, candump, result_of
 
 from swapcan.conform import RuleResult, judge_log, rule_of
 

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import pytest
-from conform.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
+from judge.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
 from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 
 from swapcan.conform import Judgement

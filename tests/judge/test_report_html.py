@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 import html5lib
 import numpy as np
 import pytest
-from conform.report_samples import (
+from judge.report_samples import (
     EMPTY,
     GOOD,
     HOSTILE,

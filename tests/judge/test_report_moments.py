@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conform.report_samples import PLAIN, result, rule
+from judge.report_samples import PLAIN, result, rule
 
 from swapcan.conform import Judgement, Occurrence, Severity, Subject, judge_log
 from swapcan.messages import B2V_Ucell

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import can
-from conform.altered import database, sealed
-from conform.in_blocks import judged
-from conform.recorded import written
+from rules.altered import database, sealed
+from rules.in_blocks import judged
+from rules.recorded import written
 
 from swapcan.conform import Judgement, Rule
 

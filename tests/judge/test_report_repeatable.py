@@ -11,7 +11,7 @@ from pathlib import Path
 from typedcan.judge.report import environment
 
 ROOT = Path(__file__).parents[2]
-LOG = Path(__file__).with_name("cases") / "checksum" / "fails.log"
+LOG = ROOT / "tests" / "rules" / "cases" / "checksum" / "fails.log"
 
 PROGRAM = """
 import sys

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conform.handmade import Bench, Sketch, at, every, found
-from conform.in_blocks import judged
-from conform.recorded import recorded, written
+from rules.handmade import Bench, Sketch, at, every, found
+from rules.in_blocks import judged
+from rules.recorded import recorded, written
 
 from swapcan.rules.voltage import RULES
 

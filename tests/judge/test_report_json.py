@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conform.report_samples import BEGIN, EMPTY, GOOD, HOSTILE, PLAIN, hostile, odd
+from judge.report_samples import BEGIN, EMPTY, GOOD, HOSTILE, PLAIN, hostile, odd
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import Judgement

@@ -7,7 +7,7 @@ import io
 from dataclasses import replace
 
 import pytest
-from conform.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
+from judge.report_samples import EMPTY, GOOD, HOSTILE, PLAIN, hostile
 
 from swapcan.conform import Judgement
 from typedcan.judge.report import to_csv

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import can
 import pytest
-from conform.recorded import recorded, written
+from rules.recorded import recorded, written
 
 from dbcspec.load.analysis import analyse
 from dbcspec.load.traffic import Scenario, Size
