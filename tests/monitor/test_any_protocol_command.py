@@ -51,7 +51,7 @@ def test_json_tells_the_widths_of_identifiers(bus: list[str], capsys: Capture) -
     options = ["--json", "--seconds", "0.4", "--interval", "0.3", "-b", "250000"]
     assert main(["monitor", "--dbc", str(MACHINE), *bus, *options]) == 0
     told = json.loads(capsys.readouterr().out.splitlines()[-1])
-    assert {"totals", "messages", "alarms", "foreign"} < set(told)
+    assert {"totals", "messages", "alarms", "transfers", "foreign"} < set(told)
     assert not {"pack", "cells"} & set(told)
     shown = {each["name"]: each for each in told["messages"]}
     short, long = shown["Motor_Status"], shown["Motor_Description_Of_Its_Maker"]

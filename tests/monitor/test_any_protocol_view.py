@@ -36,7 +36,7 @@ def test_messages_stand_with_their_whole_names_and_the_widths_of_their_identifie
     monitored = machine()
     monitored.hear(frame("Motor_Status"), frame("Key_Pressed"))
     lines = screen(monitored)
-    assert lines[0].split() == ["1", "messages", "2", "signals", "3", "alarms", "test", "bus"]
+    assert lines[0].split() == ["1", "messages", "2", "signals", "3", "overview", "test", "bus"]
     assert "load" not in lines[1]
     assert [row.split()[:3] for row in rows_of(lines)] == [
         ["Motor_Status", "0x100", "Motor"],
@@ -75,7 +75,7 @@ def test_alarms_are_listed_where_there_is_no_glance() -> None:
 
 
 def test_the_help_names_the_panes_that_there_are() -> None:
-    assert any("messages, signals, alarms" in line for line in screen(machine(), "h"))
+    assert any("messages, signals, overview" in line for line in screen(machine(), "h"))
 
 
 def test_what_a_terminal_would_obey_in_a_unit_is_shown() -> None:

@@ -2,7 +2,7 @@
 
 Text has a line for each thing that happens, with the seconds since the start: a message is late,
 lost or alive again, an alarm begins or ends, a frame has a fault (once per interval for each kind
-of each message), the protocol's glance noticed something, the bus is lost or back. That a signal
+of each message), a value over several frames is complete, the bus is lost or back. That a signal
 is invalid is not told; JSON has it. At each interval there is a line that sums up.
 
 JSON has one object per interval, one a line, and one at the end if frames came since:
@@ -18,6 +18,7 @@ JSON has one object per interval, one a line, and one at the end if frames came 
                    "wrong": 2, "last": {...}}, ...],
      "alarms": [{"message": "Motor_Status", "signal": "Motor_Heat", "title": "Motor too hot",
                  "text": "Too hot", "age": 1.5}],
+     "transfers": {"serial": {"title": "Serial number", "text": "A7K2", "age": 0.8}, ...},
      "foreign": [{"frame_id": 419360512, "is_extended": true, "frames": 6, "age": 0.3}]}
 
 Times are in seconds, ``time`` since the start, ``totals.seconds`` and all counts since counting
@@ -25,8 +26,9 @@ began. ``state`` is "alive", "late", "lost", "never seen", "ended" (what is sent
 for) or "seen" (what is sent on events). ``mean``, ``jitter`` and ``worst`` are those of the
 measured period, null before there is one. ``wrong`` counts signals that say something is wrong.
 ``last`` is the last frame as `listen --json` prints it, null where there was none. ``load`` is a
-share of 1, and an estimate; null where the bit rate is not known. A protocol with a glance has what
-that shows in place of ``alarms``, which are among it.
+share of 1, and an estimate; null where the bit rate is not known. ``transfers`` has the last value
+of each that was complete: a text, ``items``, or readings as ``groups``. A protocol with a glance of
+its own has what that shows in place of ``alarms``, which are among it, and ``transfers``.
 """
 
 from __future__ import annotations
@@ -122,8 +124,7 @@ def _summary(picture: Picture, status: Status, rows: list[MessageRow]) -> str:
         (len(picture.alarms), "alarms"),
     )
     parts += [f"{count} {what}" for count, what in counts if count]
-    if picture.look:
-        parts += picture.look.summary()
+    parts += picture.look.summary()
     if status.bus_lost:
         parts.append(f"bus lost: {status.bus_lost}")
     return ", ".join(parts)

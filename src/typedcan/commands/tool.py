@@ -36,7 +36,8 @@ class Tool:
     tables
         By name of a transfer, what the table of its readings and one reading are called.
     glance
-        Gives what the monitor shows of a protocol beside messages and signals, None for nothing.
+        Gives what the monitor shows of a protocol beside messages and signals; None for what came
+        over several frames.
     """
 
     program: str

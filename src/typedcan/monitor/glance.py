@@ -1,4 +1,4 @@
-"""What a monitor shows of one protocol beside its messages and signals: it is handed in."""
+"""What a monitor shows of one protocol beside its messages and signals: it may be handed in."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ class Picture:
     """What a `Watch` knows at ``time``, in seconds of its clock.
 
     ``messages`` has all of the protocol, in its order, ``alarms`` those that are active, of all
-    nodes; ``look`` is what the protocol's glance shows, None where it has none.
+    nodes; ``look`` is what the glance shows.
     """
 
     time: float
@@ -78,7 +78,7 @@ class Picture:
     totals: Totals
     messages: tuple[MessageRow, ...]
     alarms: tuple[Alarm, ...]
-    look: Look | None
+    look: Look
     foreign: tuple[ForeignRow, ...]
     last: Mapping[type[Message], Seen]
 
@@ -89,10 +89,9 @@ class Picture:
 
     def as_dict(self) -> dict[str, Any]:
         """The same as JSON has it, without the signals."""
-        alarms = {"alarms": [asdict(alarm) for alarm in self.alarms]}
         return {
             "totals": {**asdict(self.totals), "faults": self.totals.faults},
             "messages": [row.as_dict() for row in self.messages],
-            **(self.look.as_dict() if self.look else alarms),
+            **self.look.as_dict(),
             "foreign": [asdict(row) for row in self.foreign],
         }

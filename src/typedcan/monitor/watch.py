@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 
 import can
 
 from typedcan.monitor.bus_load import BusLoad
 from typedcan.monitor.glance import Alarm, Glance, Known, Noticed, Seen
+from typedcan.monitor.overview import OverviewGlance
 from typedcan.monitor.picture import ForeignRow, Picture, Totals
 from typedcan.monitor.rows import message_row
 from typedcan.supervise import SupervisionEvent, Supervisor
@@ -39,7 +39,7 @@ class Watch:
     codec
         What decodes the messages, those of its protocol.
     glance
-        What else is shown of the protocol, None where nothing is.
+        What else is shown of the protocol; without it what came over several frames.
     bitrate
         Of the bus, for the estimate of its load; without it that of all buses of the protocol.
     """
@@ -53,7 +53,7 @@ class Watch:
         bitrate: float | None = None,
     ) -> None:
         self.protocol = codec.protocol
-        self._glance = glance
+        self._glance: Glance = glance or OverviewGlance(codec.protocol)
         self._bitrate = bitrate or _bitrate_of(codec.protocol)
         self._receiver = Receiver(codec)
         self._last: dict[type[Message], Seen] = {}
@@ -83,8 +83,7 @@ class Watch:
     @property
     def next_check(self) -> float:
         """When `check` is due; infinite for never."""
-        of_glance = self._glance.next_check if self._glance else math.inf
-        return min(self._supervisor.next_check, of_glance)
+        return min(self._supervisor.next_check, self._glance.next_check)
 
     def take(self, frame: can.Message, now: float) -> tuple[WatchEvent | Fault, ...]:
         """What a frame that came at ``now`` brings about."""
@@ -102,8 +101,7 @@ class Watch:
         """What time alone has changed up to now."""
         if now < self.next_check:
             return ()
-        noticed = self._glance.check(now) if self._glance else ()
-        return (*self._supervisor.check(now), *noticed)
+        return (*self._supervisor.check(now), *self._glance.check(now))
 
     def picture(self, now: float) -> Picture:
         """All that is known at ``now``."""
@@ -118,7 +116,7 @@ class Watch:
             totals=self._totals(now),
             messages=rows,
             alarms=alarms,
-            look=self._glance.look(Known(now, last, states, alarms)) if self._glance else None,
+            look=self._glance.look(Known(now, last, states, alarms)),
             foreign=tuple(
                 ForeignRow(frame_id, is_extended, int(frames), now - at)
                 for (frame_id, is_extended), (frames, at) in sorted(self._foreign.items())
@@ -132,8 +130,7 @@ class Watch:
         message = received.message
         self._last[type(message)] = Seen(received, now)
         events = (*received.faults, *self._supervisor.take(received, now))
-        noticed = self._glance.take(message, now) if self._glance else ()
-        return (*events, *noticed)
+        return (*events, *self._glance.take(message, now))
 
     def _take_foreign(self, frame: can.Message, now: float) -> None:
         if frame.is_error_frame:
@@ -167,10 +164,12 @@ class Watch:
     def _alarms(
         self, messages: Iterable[tuple[type[Message], MessageSnapshot]], now: float
     ) -> Iterator[Alarm]:
-        summed_up = self._glance.summed_up if self._glance else ()
         for kind, known in messages:
             for signal in known.signals:
-                if signal.kind == "alarm" and FieldRef(kind, signal.field) not in summed_up:
+                if (
+                    signal.kind == "alarm"
+                    and FieldRef(kind, signal.field) not in self._glance.summed_up
+                ):
                     field = kind.FIELDS[signal.field]
                     age = now - signal.since
                     yield Alarm(kind.NAME, field.dbc_name, field.title, signal.text, age)

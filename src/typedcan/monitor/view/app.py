@@ -91,8 +91,7 @@ class MonitorApp(App[int]):
         self._picture: Picture = session.picture()
         self._is_paused = False
         self._ended = session.status().ended
-        look = self._picture.look
-        self._panes = dict(zip(_PANES, (*_PANES[:2], look.name if look else "alarms"), strict=True))
+        self._panes = {name: name for name in _PANES} | {"glance": self._picture.look.name}
         self._messages = MessagesPane(self._picture.protocol)
         self._messages.filter = name_filter
         self._signals = SignalsPane()

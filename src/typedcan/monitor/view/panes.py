@@ -111,7 +111,7 @@ class SignalsPane(TablePane[SignalRow]):
 
 
 class GlancePane(VerticalScroll):
-    """The alarms of all nodes, and what the glance of the protocol shows, where it has one."""
+    """The alarms of all nodes, and what the glance at the protocol shows."""
 
     def __init__(self) -> None:
         super().__init__(id="glance")
@@ -127,8 +127,7 @@ class GlancePane(VerticalScroll):
         lines = list(_alarms(picture.alarms))
         for line in lines:
             line.truncate(width, overflow="ellipsis")
-        if picture.look:
-            lines += [Text(), picture.look.text(width)]
+        lines += [Text(), picture.look.text(width)]
         self._text.update(Text("\n").join(lines))
 
     def move(self, where: Where) -> None:

@@ -1,0 +1,59 @@
+"""Which protocols have the glance at a pack: this standard, in whatever words."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path
+
+import can
+import pytest
+from monitor.machine import CODEC
+from monitor.monitored import Monitored, frame, look
+
+from swapcan import PROTOCOL, encode
+from swapcan.commands.tool import TOOL
+from swapcan.glance.look import glance_of
+from swapcan.transfer import split_vin
+from typedcan.monitor.watch import Watch
+from typedcan.wire.codec import Codec
+from typedcan.wire.dynamic import typed_protocol
+
+CHINESE = Path(__file__).parents[2] / "dbc" / "caamtb-swap.zh-utf8.dbc"
+
+
+@pytest.fixture
+def chinese(tmp_path: Path) -> Codec:
+    """The standard with labels of a Chinese DBC, and message classes of its own."""
+    path = tmp_path / "chinese.dbc"
+    path.write_text(CHINESE.read_text("utf-8").replace('"Closed"', '"闭合"'), "utf-8")
+    return TOOL.codec(Namespace(dbc=path))
+
+
+def test_other_protocols_have_none() -> None:
+    assert glance_of(CODEC.protocol) is None
+    fewer = replace(PROTOCOL.model, messages=PROTOCOL.model.messages[1:], transfers=(), requests=())
+    assert glance_of(typed_protocol(fewer)) is None
+
+
+def test_a_database_of_this_standard_shows_the_pack_in_its_own_words(chinese: Codec) -> None:
+    assert chinese.protocol is not PROTOCOL
+    monitored = Monitored(Watch(0.0, chinese, glance=glance_of(chinese.protocol)))
+    vin = "LZGJL4V40MX000001"
+    monitored.hear(
+        frame("B2V_ST0", 0.0, ST_MainPos=2),
+        frame("B2V_ST2", 0.0, SOC=76.4),
+        frame("B2V_ST1", 0.0, Fault_Levl=2, Flt_OverTemp=2),
+        frame("B2V_BattInfo2", 0.0, TotCSCNum=1, TotCellNum=3, TotTempNum=1),
+        frame("B2V_Ucell", 0.0, UC_CSCNo=1, FrameNo=1, CSCNo_UcellN=3.3),
+        *(can.Message(arbitration_id=0x18E1F3D0, data=encode(each)) for each in split_vin(vin)),
+    )
+    picture = monitored.at(0.05)
+    shown = look(picture)
+    assert shown.pack.item("soc").text == "76.4 %"
+    assert shown.pack.item("main_positive").text == "闭合"
+    assert shown.vin == vin
+    assert (shown.cells.total, shown.cells.received) == (3, 3)
+    assert [alarm.signal for alarm in picture.alarms] == ["B2V_ST1_Flt_OverTemp"]
+    told = [str(each.event) for each in monitored.session.events()]
+    assert f"VIN {vin}" in told
