@@ -145,6 +145,17 @@ def test_the_load_takes_a_bit_rate_given_or_that_of_all_buses_of_the_protocol() 
     assert [each.picture(1.0).totals.load for each in fresh] == [None, 0.0]
 
 
+def test_a_message_of_several_senders_is_found_by_each() -> None:
+    motor, *others = CODEC.protocol.model.messages
+    shared = replace(motor, other_senders=("Light",))
+    protocol = replace(CODEC.protocol.model, messages=(shared, *others))
+    monitored = Monitored(Watch(0.0, Codec(typed_protocol(protocol))))
+    shown = row(monitored.at(0.0), "Motor_Status")
+    assert shown.sender == "Motor, Light"
+    assert shown.matches("light")
+    assert shown.matches("motor")
+
+
 def test_a_protocol_without_messages_and_nodes_has_foreign_identifiers_only() -> None:
     empty = replace(CODEC.protocol.model, messages=(), nodes=())
     monitored = Monitored(Watch(0.0, Codec(typed_protocol(empty))))

@@ -30,7 +30,8 @@ class MessageRow:
     Parameters
     ----------
     name, frame_id, is_extended, sender, receivers
-        What the protocol says of it; the identifier has 29 bits or 11.
+        What the protocol says of it; the identifier has 29 bits or 11, and of several senders
+        there are all, with commas.
     state
         "alive", "late" or "lost" of what has to come always; "ended" of what comes while a
         condition holds, and no longer does; "seen" of what comes on events; or "never seen".
@@ -90,7 +91,7 @@ def message_row(kind: type[Message], known: MessageSnapshot, protocol: Protocol)
         name=kind.NAME,
         frame_id=kind.FRAME_ID,
         is_extended=kind.EXTENDED,
-        sender=kind.SENDER,
+        sender=", ".join(kind.MODEL.senders),
         receivers=kind.RECEIVERS,
         state=_state(kind, known, protocol),
         frames=known.frames,

@@ -13,10 +13,8 @@ from textual.widgets import ContentSwitcher, DataTable, Static
 
 from typedcan.monitor.picture import Picture
 from typedcan.monitor.session import Session
-from typedcan.monitor.view.help import HelpScreen
+from typedcan.monitor.view.frame import HelpScreen, Prompt, Shown, panes_line, status_line
 from typedcan.monitor.view.panes import GlancePane, MessagesPane, SignalsPane, Where
-from typedcan.monitor.view.prompt import Prompt
-from typedcan.monitor.view.status import Shown, panes_line, status_line
 from typedcan.shell.recording import RecordingError, free_name
 
 INTERRUPTED = 130

@@ -1,18 +1,78 @@
-"""A table whose rows are given anew several times a second: it keeps cursor and place."""
+"""A table whose rows are given anew several times a second: it keeps cursor and place.
+
+And its columns: which of them fit, and what rows are sorted by.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import ClassVar, Generic, TypeVar
 
 from rich.text import Text
 from textual.binding import Binding, BindingType
 from textual.widgets import DataTable
 
-from typedcan.monitor.view.columns import Column, fitting
 from typedcan.shell.printing import printable
 
 RowT = TypeVar("RowT")
+
+_GAP = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Column(Generic[RowT]):
+    """A column.
+
+    Parameters
+    ----------
+    name
+        Its heading, by which it is known too.
+    width
+        In characters; rows have that or less.
+    rank
+        Which columns go first where there is no room for all: those with the highest.
+    cell
+        What stands in it for a row.
+    order
+        What rows are sorted by; None where they are not sorted by this column. Numbers are sorted
+        from high to low.
+    grows
+        Whether it takes the room that is left.
+    """
+
+    name: str
+    width: int
+    rank: int
+    cell: Callable[[RowT], Text]
+    order: Callable[[RowT], str | float] | None = None
+    grows: bool = False
+
+
+def fitting(columns: Sequence[Column[RowT]], width: int) -> list[Column[RowT]]:
+    """The columns that there is room for, in their order; one may have grown."""
+    kept: set[int] = set()
+    left = width
+    for index in sorted(range(len(columns)), key=lambda index: columns[index].rank):
+        needed = columns[index].width + _GAP
+        if needed <= left:
+            kept.add(index)
+            left -= needed
+    return [
+        replace(column, width=column.width + left) if column.grows else column
+        for index, column in enumerate(columns)
+        if index in kept
+    ]
+
+
+def ordered(
+    columns: Sequence[Column[RowT]], rows: Sequence[RowT], name: str | None
+) -> Sequence[RowT]:
+    """The rows sorted by the column of that name; as they are where there is none."""
+    order = next((column.order for column in columns if column.name == name), None)
+    if order is None or not rows:
+        return rows
+    return sorted(rows, key=order, reverse=not isinstance(order(rows[0]), str))
 
 
 class Table(DataTable[Text], Generic[RowT]):
