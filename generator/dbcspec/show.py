@@ -54,11 +54,9 @@ def _head(message: Message) -> Iterator[str]:
     if message.is_fd:
         yield f"{message.frame_kind}."
     if message.checksum:
-        check = message.checksum
-        covered = f"bytes {check.first_byte} to {check.last_byte}"
-        yield f"Checksum {check.signal}: {check.algorithm} of {covered}."
+        yield f"Checksum {message.checksum.signal}: {message.checksum}."
     if message.counter:
-        yield f"Counter {message.counter.signal}: 0 to {message.counter.modulus - 1}."
+        yield f"Counter {message.counter.signal}: {message.counter}."
     yield message.reference
 
 

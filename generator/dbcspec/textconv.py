@@ -123,10 +123,9 @@ def _message(message: Message, carries: frozenset[Aspect]) -> list[_Fact]:
         place = f"{bits.byte_order.value} {bits.start}|{bits.length}"
         facts.append(("reserved bits", _Bare(f"{place}, sent as {bits.value}")))
     if check := message.checksum:
-        covered = f"of bytes {check.first_byte} to {check.last_byte}"
-        facts.append(("checksum", _Bare(f"{check.signal} {check.algorithm} {covered}")))
+        facts.append(("checksum", _Bare(f"{check.signal} {check}")))
     if counter := message.counter:
-        facts.append(("counter", _Bare(f"{counter.signal} modulo {counter.modulus}")))
+        facts.append(("counter", _Bare(f"{counter.signal} {counter}")))
     return [*facts, ("reference", message.reference), *_names("erratum", message.errata)]
 
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from importlib import resources
 from typing import Any, overload
 
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from typedcan.model.checksums.registry import Given
 from typedcan.model.errors import TypedcanError
 from typedcan.wire import codec, link, receiver
 from typedcan.wire import database as databases
 from typedcan.wire.message import Message, MessageT
-from typedcan.wire.protect import Algorithm
 from typedcan.wire.protocol import Protocol
 
 SwapcanError = TypedcanError
@@ -26,16 +26,15 @@ class Codec(codec.Codec):
     Parameters
     ----------
     algorithms
-        Checksum algorithms by name, for those that the standard leaves open: a function from the
-        covered bytes to one byte, for example ``{"BMS_CRC": my_crc}``. Without one that checksum
-        is sent as 0 and not verified.
+        What computes the checksums that the standard leaves open, by name, for example
+        ``{"BMS_CRC": my_crc}``: a function from the covered bytes to an int, or the name of a
+        known one, such as "CRC-8/SAE-J1850". Without one that checksum is sent as 0 and not
+        verified.
     protocol
         Another protocol whose package `dbcspec generate` wrote.
     """
 
-    def __init__(
-        self, algorithms: Mapping[str, Algorithm] | None = None, protocol: Protocol = PROTOCOL
-    ) -> None:
+    def __init__(self, algorithms: Given | None = None, protocol: Protocol = PROTOCOL) -> None:
         super().__init__(protocol, algorithms)
 
 

@@ -66,7 +66,7 @@ def _count_on(once: FrameBlock, data: np.ndarray, rounds: np.ndarray, rows: np.n
             continue
         own = np.flatnonzero(once.frame_id[rows] == kind.FRAME_ID)
         step = int((once.frame_id == kind.FRAME_ID).sum()) % kind.COUNTER.modulus
-        signal = kind.MODEL.signal(kind.COUNTER.dbc_name)
+        signal = kind.MODEL.signal(kind.COUNTER.signal)
         byte, shift = divmod(bits(signal)[0], 8)
         mask = (1 << signal.length) - 1
         held = data[own, byte].astype(np.int64)

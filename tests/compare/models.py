@@ -11,12 +11,11 @@ from typing import Any
 from hypothesis import strategies as st
 
 from typedcan.model.acting import ActingCodes
+from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import (
     Bus,
     ByteOrder,
-    Checksum,
     Code,
-    Counter,
     Erratum,
     Message,
     Node,
@@ -36,6 +35,7 @@ NOT_COMPARED = {
 
 NODES = ("ECU", "HMI", "LOG")
 texts = st.sampled_from(["", "one", "two", "eins"])
+short_bytes = st.lists(st.integers(0, 255), max_size=3).map(tuple)
 marks = st.sampled_from([(), ("E1",), ("E1", "E2")])
 numbers = st.integers(-50, 50).map(Decimal)
 codes = st.lists(st.integers(0, 20), min_size=1, max_size=4, unique=True).flatmap(
@@ -112,10 +112,20 @@ def messages(number: int) -> st.SearchStrategy[Message]:
             Checksum,
             signal=carriers,
             algorithm=texts,
-            first_byte=st.integers(0, 7),
-            last_byte=st.integers(0, 7),
+            covered=st.permutations(range(8)).map(tuple),
+            before=short_bytes,
+            after=short_bytes,
+            data_ids=short_bytes,
+            is_open=st.booleans(),
         ),
-        counter=st.none() | st.builds(Counter, signal=carriers, modulus=st.integers(1, 16)),
+        counter=st.none()
+        | st.builds(
+            Counter,
+            signal=carriers,
+            modulus=st.integers(1, 16),
+            first=st.integers(0, 3),
+            step=st.integers(1, 3),
+        ),
         reference=texts,
         errata=marks,
     )

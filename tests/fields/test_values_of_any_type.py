@@ -63,7 +63,7 @@ class Bench:
         )
         raw.pop(self.field.dbc_name)
         if self.message.CHECKSUM:
-            raw.pop(self.message.FIELDS[self.message.CHECKSUM.field].dbc_name, None)
+            raw.pop(self.message.CHECKSUM.signal, None)
         return raw
 
     def judge(self, value: object) -> str:

@@ -13,11 +13,10 @@ from dbcspec.errors import SpecError
 from dbcspec.spec.errata import apply_errata
 from dbcspec.spec.folder import read_spec
 from dbcspec.spec.resolve import resolve
+from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import (
     ByteOrder,
-    Checksum,
     Code,
-    Counter,
     Message,
     Protocol,
     SendType,
@@ -54,7 +53,7 @@ def test_a_message_joins_annex_tables_and_behaviour(tmp_path: Path) -> None:
     assert (message.send_type, message.condition) == (SendType.CYCLIC, "always")
     assert (message.title, message.english) == ("加热器状态", "Heater state")
     assert message.reference == "A, Table 1 (5.1)"
-    expected = Checksum(signal="H_Sum", algorithm="xor", first_byte=1, last_byte=7)
+    expected = Checksum(signal="H_Sum", algorithm="xor", covered=(1, 2, 3, 4, 5, 6, 7))
     assert message.checksum == expected
     assert message.counter == Counter(signal="H_Live", modulus=16)
     assert str(message.where) == "spec/messages.yaml:4:5"
@@ -210,9 +209,9 @@ def test_a_factor_of_0_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "fault"),
     [
-        ("signal: H_Sum", "signal: H_Live", "H_Live: a checksum must fill one whole byte"),
+        ("signal: H_Sum", "signal: H_Live", "H_Live: xor makes 8 bits, its signal has 4"),
         ("bytes: 1~7", "bytes: 1~8", "H_Sum: bytes 1~8 are not in the message"),
-        ("bytes: 1~7", "bytes: 3~2", "H_Sum: bytes 3~2 are not in the message"),
+        ("bytes: 1~7", "bytes: 3~2", "H_Sum: covers no byte: ranges rise, such as 1~7"),
         (", bytes: 1~7", "", "H_Sum: bytes is missing, and no erratum gives it"),
         (", modulus: 16", "", "H_Live: modulus is missing, and no erratum gives it"),
         ("signal: H_Live", "signal: H_Alive", "signal: there is no 'H_Alive'"),

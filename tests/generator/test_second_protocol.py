@@ -8,11 +8,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
+from oracles.bitwise_crc import Parameters, crc
 
+J1850 = Parameters(width=8, poly=0x1D, init=0xFF, refin=False, refout=False, xorout=0xFF)
 SECOND = Path(__file__).parent.parent / "fixtures" / "second"
 WITHOUT = "import sys; sys.modules['swapcan'] = None\n"
 DBCSPEC = WITHOUT + "from dbcspec.cli import run; sys.exit(run(sys.argv[1:]))"
+TYPEDCAN = WITHOUT + "from typedcan.__main__ import main; sys.exit(main())"
 LINKS = (
     WITHOUT
     + """
@@ -59,37 +63,81 @@ def run(folder: Path, program: str, *arguments: str) -> subprocess.CompletedProc
     )
 
 
-def with_xor(folder: Path) -> None:
-    """Its checksum by an algorithm that the runtime has."""
+def with_algorithm(folder: Path, algorithm: str) -> None:
+    """Its checksum by another algorithm."""
     path = folder / "spec" / "behaviour.yaml"
-    path.write_text(path.read_text("utf-8").replace("crc8_sae_j1850", "xor"), "utf-8")
+    path.write_text(path.read_text("utf-8").replace("crc8_sae_j1850", algorithm), "utf-8")
 
 
 def test_a_checksum_that_nothing_computes_is_refused_and_not_sent_as_zero(project: Path) -> None:
+    with_algorithm(project, "crc8_of_nobody")
     linted = run(project, DBCSPEC, "lint", "--json")
     assert linted.returncode == 1
     assert "checksum-algorithm-known" in linted.stdout
-    assert "crc8_sae_j1850" in linted.stdout
+    assert "crc8_of_nobody" in linted.stdout
     generated = run(project, DBCSPEC, "generate")
     assert generated.returncode in (1, 2)
-    assert "crc8_sae_j1850" in generated.stderr
+    assert "crc8_of_nobody" in generated.stderr
     assert not (project / "acme").exists()
 
 
 def test_links_send_and_receive_its_11_bit_messages(project: Path) -> None:
-    with_xor(project)
     assert run(project, DBCSPEC, "lint").returncode == 0
     generated = run(project, DBCSPEC, "generate")
     assert generated.returncode == 0, generated.stderr
     done = run(project, LINKS)
     assert done.returncode == 0, done.stderr
-    # 12.5 km/h is 125 = 7D steps, 100 km/h 1000 = 3E8; byte 0 is the XOR of the others.
+    # 12.5 km/h is 125 = 7D steps, 100 km/h 1000 = 3E8; byte 0 is the CRC-8 (polynomial 1D,
+    # begun with FF, inverted at the end) of the others, as `oracles.bitwise_crc` divides it.
+    assert crc(J1850, bytes.fromhex("007d0000000000")) == 0x2F
+    assert crc(J1850, bytes.fromhex("01e80300000000")) == 0x3B
     assert done.stdout.splitlines() == [
         "A_STATUS 12.5 0 1",
         "A_STATUS 100.0 1 2",
         "1",
-        "101 False 7d007d0000000000",
-        "101 False ea01e80300000000",
+        "101 False 2f007d0000000000",
+        "101 False 3b01e80300000000",
         "201 False 0100000000000000",
         "[('main', 500000)] ('AAA', 'BBB')",
     ]
+
+
+LOG = """(0.0) can0 101#2f007d0000000000
+(0.1) can0 101#3b01e80300000000
+(0.2) can0 101#3c02e80300000000
+(0.3) can0 101#%02x03e80300000000
+"""
+"""Two frames as they are sent, one with a wrong checksum, and one more."""
+
+
+def test_its_logs_are_decoded_and_converted_with_that_checksum(project: Path) -> None:
+    assert run(project, DBCSPEC, "generate").returncode == 0
+    log = project / "drive.log"
+    log.write_text(LOG % crc(J1850, bytes.fromhex("03e80300000000")), "ascii")
+    arguments = ("--protocol", "acme._generated")
+    decoded = run(project, TYPEDCAN, *arguments, "decode", "drive.log")
+    assert decoded.returncode == 0, decoded.stderr
+    assert "frames 4, decoded 3, unknown 0" in decoded.stderr
+    assert "(length 0, checksum 1, counter 1)" in decoded.stderr
+    wrong = crc(J1850, bytes.fromhex("02e80300000000"))
+    assert f"checksum is 0x3C, the bytes make 0x{wrong:02X}" in decoded.stdout
+    output = ("--messages", "A_STATUS", "-o", "drive.parquet")
+    converted = run(project, TYPEDCAN, *arguments, "convert", "drive.log", *output)
+    assert converted.returncode == 0, converted.stderr
+    assert "wrong checksum: A_STATUS 1" in converted.stderr
+    assert "wrong counter: A_STATUS 1" in converted.stderr
+    table = pq.read_table(project / "drive.parquet")
+    assert table.column("A_STATUS_CNT").to_pylist() == [0, 1, 3]
+
+
+def test_the_spec_that_is_written_of_its_matrix_has_the_checksum_too(project: Path) -> None:
+    exported = run(project, DBCSPEC, "matrix", "export", "--output", "acme.xlsx")
+    assert exported.returncode == 0, exported.stderr
+    imported = run(project, DBCSPEC, "import", "acme.xlsx", "--out", "again")
+    assert imported.returncode == 0, imported.stderr
+    behaviour = (project / "again" / "behaviour.yaml").read_text("utf-8")
+    assert '{signal: A_STATUS_CRC, algorithm: CRC-8/SAE-J1850, bytes: "1~7"}' in behaviour
+    compared = run(project, DBCSPEC, "compare", "spec", "again", "--json").stdout
+    assert '"transfer-same"' in compared  # a matrix has no transfers
+    assert '"message-checksum-same"' not in compared
+    assert '"message-counter-same"' not in compared

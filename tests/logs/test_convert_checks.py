@@ -87,8 +87,8 @@ def _sealed(kind: type[swapcan.Message], data: bytes) -> bytes:
         swapcan.decode(kind.FRAME_ID, data)
     except swapcan.ChecksumError as error:
         assert kind.CHECKSUM
-        place = kind.CHECKSUM.byte
-        return data[:place] + bytes([error.expected]) + data[place + 1 :]
+        assert kind.CHECKSUM.signal.endswith("_Checksum")  # byte 0 of all that have one
+        return bytes([error.expected]) + data[1:]
     return data
 
 

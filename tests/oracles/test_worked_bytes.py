@@ -251,7 +251,7 @@ def test_the_bytes_worked_out_by_hand_decode_to_what_was_given(case: str) -> Non
         elif given is not None:
             assert got == given
     if message.COUNTER:
-        assert getattr(decoded, message.COUNTER.field) == counter
+        assert getattr(decoded, message.field_of(message.COUNTER.signal).name) == counter
 
 
 def test_the_high_byte_of_the_voltage_comes_first() -> None:

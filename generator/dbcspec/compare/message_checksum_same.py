@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, message_change
 from dbcspec.compare.protection import protection_follows
-from typedcan.model.protocol import Aspect, Checksum
+from typedcan.model.protection import Checksum
+from typedcan.model.protocol import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
@@ -18,10 +19,7 @@ def _check(pairing: Pairing) -> Iterator[Change]:
 
 
 def _text(checksum: Checksum | None) -> str:
-    if checksum is None:
-        return ""
-    covered = f"bytes {checksum.first_byte} to {checksum.last_byte}"
-    return f"{checksum.algorithm} of {covered} in {checksum.signal}"
+    return f"{checksum} in {checksum.signal}" if checksum else ""
 
 
 PROMISE = Promise(

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dbcspec.compare.pairing import Pairing
 from dbcspec.compare.promise import Breaks, Change, Class, Promise, message_change
 from dbcspec.compare.protection import protection_follows
-from typedcan.model.protocol import Aspect, Counter
+from typedcan.model.protection import Counter
+from typedcan.model.protocol import Aspect
 
 
 def _check(pairing: Pairing) -> Iterator[Change]:
@@ -18,7 +19,7 @@ def _check(pairing: Pairing) -> Iterator[Change]:
 
 
 def _text(counter: Counter | None) -> str:
-    return f"0 to {counter.modulus - 1} in {counter.signal}" if counter else ""
+    return f"{counter} in {counter.signal}" if counter else ""
 
 
 PROMISE = Promise(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from dbcspec.compare.pairing import MessagePair
-from typedcan.model.protocol import Checksum, Counter
+from typedcan.model.protection import Checksum, Counter
 
 
 def protection_follows(

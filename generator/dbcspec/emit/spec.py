@@ -7,7 +7,7 @@ standard, which a spec makes from its own tables.
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import Counter as Counts
 from collections.abc import Iterator
 
 from dbcspec.emit.spec_yaml import Pairs, flow_entries, list_lines, mapping_lines, scalar
@@ -15,6 +15,7 @@ from typedcan.model.acting import usual_start
 from typedcan.model.layout import float_limits
 from typedcan.model.naming import field_name, shared_prefix, unused
 from typedcan.model.numbers import number
+from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import ByteOrder, Message, Protocol, SendType, Signal, ValueTable
 
 _TYPES = {SendType.CYCLIC: "Cyclic", SendType.IF_ACTIVE: "IfActive", SendType.EVENT: "Event"}
@@ -25,7 +26,7 @@ def emit_spec(protocol: Protocol) -> dict[str, bytes]:
 
     One table per message; a signal whose name several messages have gets its row for each.
     """
-    names = Counter(signal.name for _, signal in protocol.signals())
+    names = Counts(signal.name for _, signal in protocol.signals())
     repeated = {name for name, count in names.items() if count > 1}
     with_signals = [message for message in protocol.messages if message.signals]
     width = max(2, len(str(len(with_signals))))
@@ -115,7 +116,7 @@ def _signal_name(message: Message, signal: Signal, repeated: set[str]) -> str:
 
 
 def _messages(protocol: Protocol) -> Iterator[str]:
-    orders = Counter(signal.byte_order for _, signal in protocol.signals())
+    orders = Counts(signal.byte_order for _, signal in protocol.signals())
     usual = orders.most_common(1)[0][0] if orders else ByteOrder.INTEL
     yield "# The layout of the frames."
     yield "annex: messages"
@@ -127,7 +128,7 @@ def _messages(protocol: Protocol) -> Iterator[str]:
 
 def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator[str]:
     extended = protocol.frame_format != "StandardCAN"
-    orders = Counter(signal.byte_order for signal in message.signals)
+    orders = Counts(signal.byte_order for signal in message.signals)
     order = orders.most_common(1)[0][0] if orders else usual
     yield f"  - id: 0x{message.frame_id:X}"
     yield from mapping_lines(
@@ -216,18 +217,14 @@ def _behaviour(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
     messages = protocol.messages
     sections: dict[str, list[Pairs]] = {
         "checksums": [
-            [
-                ("signal", checksum.signal),
-                ("algorithm", checksum.algorithm),
-                ("bytes", f"{checksum.first_byte}~{checksum.last_byte}"),
-            ]
-            for checksum in (message.checksum for message in messages)
-            if checksum
+            _checksum(checksum, _carrier(message, checksum.signal, repeated))
+            for message in messages
+            if (checksum := message.checksum)
         ],
         "counters": [
-            [("signal", counter.signal), ("modulus", counter.modulus)]
-            for counter in (message.counter for message in messages)
-            if counter
+            _counter(counter, _carrier(message, counter.signal, repeated))
+            for message in messages
+            if (counter := message.counter)
         ],
         "transfers": [list(transfer.given().items()) for transfer in protocol.transfers],
         "requests": [
@@ -254,6 +251,32 @@ def _behaviour(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
         yield from list_lines(key, rows) if rows else [f"{key}: []"]
     if any(bits.value for message in messages for bits in message.reserved):
         yield "padding: {reserved: 1}"
+
+
+def _carrier(message: Message, name: str, repeated: set[str]) -> str:
+    return f"{message.name}.{name}" if name in repeated else name
+
+
+def _checksum(checksum: Checksum, signal: str) -> Pairs:
+    return [
+        ("signal", signal),
+        ("algorithm", checksum.algorithm),
+        ("open", "yes" if checksum.is_open else None),
+        ("bytes", checksum.covers()),
+        ("before", checksum.before or None),
+        ("after", checksum.after or None),
+        ("data_ids", checksum.data_ids or None),
+    ]
+
+
+def _counter(counter: Counter, signal: str) -> Pairs:
+    if (counter.first, counter.step) == (0, 1):
+        return [("signal", signal), ("modulus", counter.modulus)]
+    return [
+        ("signal", signal),
+        ("range", f"{counter.first}~{counter.last}"),
+        ("step", counter.step),
+    ]
 
 
 def _acts(protocol: Protocol, repeated: set[str]) -> Iterator[Pairs]:

@@ -21,7 +21,7 @@ TAKEN = frozenset(
         *("Any", "Callable", "ClassVar", "Decoder", "IntEnum", "Mapping", "Sequence", "dataclass"),
         *("annotations", "bind", "code_table", "draft_of", "read_model"),
         *("decoders", "enums", "messages", "model", "protocol"),
-        *("_checksum_of", "_counter_of", "_fields_of", "_selected_of"),
+        *("_fields_of", "_selected_of"),
         *("Message", "MessageModel", "SignalState", "Checksum", "Counter", "Field", "Selected"),
         *(f"Code{bits}" for bits in range(1, 9)),
     }

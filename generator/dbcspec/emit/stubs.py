@@ -81,9 +81,7 @@ def _imports(protocol: Protocol, fields: list[StubField]) -> list[str]:
 
 def _binding(protocol: Protocol) -> list[str]:
     """What binds classes to the model; a field cannot have such a name with an underscore."""
-    names = ["checksum_of"] if any(each.checksum for each in protocol.messages) else []
-    names += ["counter_of"] if any(each.counter for each in protocol.messages) else []
-    names += ["fields_of"] if protocol.messages else []
+    names = ["fields_of"] if protocol.messages else []
     return names + (["selected_of"] if any(map(_selects, protocol.messages)) else [])
 
 

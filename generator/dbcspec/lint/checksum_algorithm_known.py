@@ -1,7 +1,7 @@
 """Rule checksum-algorithm-known: each checksum has an algorithm that the runtime can compute.
 
-One that it cannot is sent as 0 and not verified. Where the standard leaves the algorithm open that
-is all that can be done: a waiver says so, with the reason.
+A message with one that it cannot is not sent. Where the standard leaves the algorithm open, the
+spec says so: then users give one, and until then it is sent as 0 and not verified.
 """
 
 from __future__ import annotations
@@ -9,22 +9,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dbcspec.lint.rule import Found, Rule, Subject
-from typedcan.model.checksums import ALGORITHMS
+from typedcan.model.checksums.registry import AlgorithmError, method_of
 
 
 def _check(subject: Subject) -> Iterator[Found]:
     rows = {row.signal: row for row in subject.spec.behaviour.checksums} if subject.spec else {}
     for message in subject.protocol.messages:
         checksum = message.checksum
-        if checksum and checksum.algorithm not in ALGORITHMS:
-            row = rows.get(checksum.signal)
-            where = row.where_is("algorithm") if row else message.signal(checksum.signal).where
-            text = (
-                f"{checksum.signal} has the algorithm {checksum.algorithm!r}, which nothing here "
-                f"computes (known: {', '.join(ALGORITHMS)}), so that it would be sent as 0: "
-                "correct it, or waive this where the standard leaves it open"
-            )
-            yield Found(where, checksum.signal, text, message.name)
+        if checksum is None or checksum.is_open:
+            continue
+        try:
+            method_of(checksum.algorithm)
+        except AlgorithmError as error:
+            name = checksum.signal
+            row = rows.get(f"{message.name}.{name}", rows.get(name))
+            where = row.where_is("algorithm") if row else message.signal(name).where
+            text = f"{name}: {error}; where the standard leaves it open, say `open: yes`"
+            yield Found(where, name, text, message.name)
 
 
 RULE = Rule(

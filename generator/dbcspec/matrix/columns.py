@@ -142,9 +142,13 @@ def _ranges(values: Sequence[int]) -> Iterator[str]:
 def _protection(message: Message, signal: Signal) -> str | None:
     checksum, counter = message.checksum, message.counter
     if checksum and checksum.signal == signal.name:
-        return f"Checksum {checksum.algorithm}, bytes {checksum.first_byte}~{checksum.last_byte}"
+        extras = "".join(f", {key} {value}" for key, value in checksum.extras)
+        open_ = ", open" if checksum.is_open else ""
+        return f"Checksum {checksum.algorithm}, bytes {checksum.covers()}{extras}{open_}"
     if counter and counter.signal == signal.name:
-        return f"Counter, modulus {counter.modulus}"
+        runs = (("first", counter.first, 0), ("step", counter.step, 1))
+        extras = "".join(f", {key} {value}" for key, value, usual in runs if value != usual)
+        return f"Counter, modulus {counter.modulus}{extras}"
     return None
 
 

@@ -9,17 +9,16 @@ from dataclasses import dataclass, field
 
 from dbcspec.matrix.grid import CellValue
 from dbcspec.matrix.headings import normal
+from dbcspec.matrix.protection import protected
 from dbcspec.matrix.row import Row, Sheet
 from dbcspec.matrix.signal import SharedTables, SignalDraft
 from dbcspec.matrix.values import CellError, identifier_of, names_of, text_of, whole_of
-from typedcan.model.protocol import Checksum, Counter, Message, SendType, Signal
+from typedcan.model.protocol import Message, SendType, Signal
 
 _MESSAGE_KEYS = ("frame_format", "send_type", "period", "condition", "msg_length", "msg_title")
 _SHARED_KEYS = ("title", "english", "reference", "errata")
 _LONGEST_PERIOD = 10**9
 _LONGEST_MESSAGE = 65_535
-_CHECKSUM = re.compile(r"checksum (\w+), bytes (\d{1,5})~(\d{1,5})", re.IGNORECASE)
-_COUNTER = re.compile(r"counter, modulus (\d{1,10})", re.IGNORECASE)
 _SEND_TYPES = {
     **dict.fromkeys(
         ("cyclic", "cycle", "periodic", "周期", "周期型", "ce", "周期事件", "周期事件型", "混合"),
@@ -153,8 +152,7 @@ def _message(draft: _MessageDraft, tables: SharedTables) -> Message:
         fact("frame_format").fault("frame_format", f"0x{draft.frame_id:X} is no 11-bit identifier")
     period = fact("period").read("period", lambda cell: whole_of(cell, 0, _LONGEST_PERIOD), None)
     send_type = fact("send_type").read("send_type", _send_type, None)
-    checksum, counter = _protection(draft)
-    return Message(
+    message = Message(
         name=draft.name,
         title=text("title") or text("msg_title"),
         english=text("english"),
@@ -169,12 +167,11 @@ def _message(draft: _MessageDraft, tables: SharedTables) -> Message:
         send_type=send_type or (SendType.CYCLIC if period else SendType.EVENT),
         condition=text("condition"),
         signals=tuple(signals),
-        checksum=checksum,
-        counter=counter,
         reference=text("reference"),
         errata=names_of(text("errata")),
         where=draft.row.where,
     )
+    return protected(message, [each.row for each in draft.signals])
 
 
 def _received(draft: _MessageDraft, signal: SignalDraft) -> SignalDraft:
@@ -209,26 +206,6 @@ def _demultiplexed(draft: _MessageDraft, signals: list[Signal]) -> Iterator[Sign
                 text = f"{draft.name} has several selectors: write m0 @{others[0]}"
             each.row.fault("multiplexing", text)
         yield dataclasses.replace(signal, multiplexer=multiplexer)
-
-
-def _protection(draft: _MessageDraft) -> tuple[Checksum | None, Counter | None]:
-    checksum: Checksum | None = None
-    counter: Counter | None = None
-    for signal in draft.signals:
-        name, text = signal.row.name("signal_name"), signal.row.name("protection")
-        if found := _CHECKSUM.fullmatch(text):
-            checksum = Checksum(
-                signal=name,
-                algorithm=found[1],
-                first_byte=int(found[2]),
-                last_byte=int(found[3]),
-            )
-        elif found := _COUNTER.fullmatch(text):
-            counter = Counter(signal=name, modulus=int(found[1]))
-        elif text:
-            example = "'Checksum xor, bytes 1~7' or 'Counter, modulus 16'"
-            signal.row.fault("protection", f"expected {example}, not {text[:40]!r}")
-    return checksum, counter
 
 
 def _fd(frame_format: str) -> tuple[bool, bool]:

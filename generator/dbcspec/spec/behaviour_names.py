@@ -22,8 +22,8 @@ def unknown_names(spec: Spec, messages: Iterable[Message]) -> Iterator[Fault]:
     in_messages = {f"{message.name}.{field.name}" for message, field in spec.fields()}
     behaviour = spec.behaviour
     for rows, key, known in (
-        (behaviour.checksums, "signal", signals),
-        (behaviour.counters, "signal", signals),
+        (behaviour.checksums, "signal", signals | in_messages),
+        (behaviour.counters, "signal", signals | in_messages),
         (behaviour.requests, "signal", signals),
         (behaviour.acts, "signal", signals | in_messages),
         (behaviour.requests, "answers", names),

@@ -18,11 +18,24 @@ from dbcspec.spec.schema import (
     list_of,
     nested,
     one_of,
+    pattern,
+    whole_number,
     word_of,
 )
 from typedcan.model.transfer import Counted, Ending, Numbering
 from typedcan.model.transfers.registry import KINDS
 from typedcan.model.transfers.text import ENCODINGS
+
+BYTES = pattern(
+    "others, or numbers of bytes such as 1~7 or 0 3~7",
+    r"others|\d{1,2}(?:~\d{1,2})?(?: \d{1,2}(?:~\d{1,2})?){0,63}",
+    str,
+)
+BESIDE = pattern(
+    "a byte, identifier, identifier_reversed or length",
+    r"\d{1,3}|0[xX][0-9A-Fa-f]{1,2}|identifier|identifier_reversed|length",
+    str,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,20 +44,34 @@ class ChecksumRow(Record):
 
     IDENTITY: ClassVar[str] = "signal"
 
-    signal: str = key(NAME, "the signal that carries it", required=True)
-    algorithm: str = key(NAME, "xor, or a name of its own where the standard leaves it open")
-    bytes: tuple[Decimal, Decimal] | None = key(RANGE, "first~last byte covered")
+    signal: str = key(SIGNAL, "the signal, or message.signal, that carries it", required=True)
+    algorithm: str | None = key(
+        TEXT,
+        "xor, sum, a CRC of the public catalogue by name or parameters, PROFILE_02 or PROFILE_05 of"
+        " AUTOSAR E2E, or a name of its own where the standard leaves it open",
+    )
+    open: str = key(one_of("yes"), "yes where the standard names no algorithm", default="")
+    bytes: str | None = key(BYTES, "the bytes covered, in order; others: all but its own")
+    before: tuple[str, ...] = key(list_of(BESIDE), "what is covered before them", default=())
+    after: tuple[str, ...] = key(list_of(BESIDE), "what is covered after them", default=())
+    data_ids: tuple[int, ...] = key(
+        list_of(whole_number(0, 0xFFFF)),
+        "bytes of which the counter chooses the last one covered; of PROFILE_05 the one data id",
+        default=(),
+    )
     cite: str = key(TEXT, "where the standard says so", default="")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CounterRow(Record):
-    """An alive counter: it runs 0 to modulus - 1."""
+    """An alive counter: it runs 0 to modulus - 1, or through a range."""
 
     IDENTITY: ClassVar[str] = "signal"
 
-    signal: str = key(NAME, "the signal that carries it", required=True)
-    modulus: int | None = key(INTEGER, "number of values it runs through")
+    signal: str = key(SIGNAL, "the signal, or message.signal, that carries it", required=True)
+    modulus: int | None = key(INTEGER, "number of values it runs through, from 0")
+    range: tuple[Decimal, Decimal] | None = key(RANGE, "first~last value, in place of a modulus")
+    step: int = key(INTEGER, "from one value of the range to the next", default=1)
     cite: str = key(TEXT, "where the standard says so", default="")
 
 

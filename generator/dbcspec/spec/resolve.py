@@ -10,6 +10,7 @@ from typing import TypeVar
 from dbcspec.errors import Fault, SpecError
 from dbcspec.spec.behaviour_names import unknown_names
 from dbcspec.spec.resolve_acts import acting_codes
+from dbcspec.spec.resolve_protection import filled_in, protected
 from dbcspec.spec.resolve_standard import (
     errata_of,
     joined,
@@ -22,7 +23,7 @@ from dbcspec.spec.schema import Record
 from dbcspec.spec.value_tables import ValueTables
 from typedcan.model import protocol as model
 from typedcan.model.acting import usual_start
-from typedcan.model.layout import float_limits, whole_byte
+from typedcan.model.layout import float_limits
 from typedcan.model.naming import field_name, shared_prefix
 from typedcan.model.transfer import Transfer
 from typedcan.model.transfers.registry import usual_kind
@@ -116,10 +117,11 @@ class _Resolver:
     def _message(self, row: MessageRow) -> model.Message:
         fields = [field for field in row.signals if field.name not in self._spec.standard.reserved]
         prefixes = (*row.prefixes, f"{row.name}_", shared_prefix([field.name for field in fields]))
-        counters = {counter.signal for counter in self._spec.behaviour.counters}
-        checksums = {checksum.signal for checksum in self._spec.behaviour.checksums}
+        filled = filled_in(self._spec)
         signals = tuple(
-            self._signal(row, field, prefixes, filled_in=field.name in counters | checksums)
+            self._signal(
+                row, field, prefixes, filled.get(f"{row.name}.{field.name}", filled.get(field.name))
+            )
             for field in fields
             if self._explained[row.name, field.name]
         )
@@ -129,7 +131,7 @@ class _Resolver:
         routes = [signal_row.route for _, signal_row in explained if signal_row.route]
         tables = {id(table): table for table, _ in explained}.values()
         period = self._given(row, "period", row.period, 0)
-        return model.Message(
+        message = model.Message(
             name=row.name,
             title=" + ".join(table.title for table in tables),
             english=row.english,
@@ -144,13 +146,12 @@ class _Resolver:
             send_type=_SEND_TYPES[self._given(row, "type", row.type, "Event")],
             condition=self._conditions.get(row.name, ""),
             signals=signals,
-            checksum=self._checksum(row, signals),
-            counter=self._counter(signals),
             reserved=tuple(self._reserved(row)),
             reference=", ".join((self._spec.messages.annex, *map(table_reference, tables))),
             errata=row.marks,
             where=row.where,
         )
+        return protected(message, self._spec, self.faults)
 
     def _reserved(self, message: MessageRow) -> Iterator[model.ReservedBits]:
         padding = self._spec.behaviour.padding
@@ -182,7 +183,7 @@ class _Resolver:
         return self._aliases.get(printed, printed)
 
     def _signal(
-        self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], *, filled_in: bool
+        self, message: MessageRow, field: FieldRow, prefixes: Iterable[str], filled: int | None
     ) -> model.Signal:
         rows = self._explained[message.name, field.name]
         row = rows[0][1]
@@ -199,7 +200,7 @@ class _Resolver:
         standard = self._spec.standard
         invalid = _code_labelled(row.labels, standard.invalid_labels)
         acting = self._acting.get(f"{message.name}.{field.name}") or self._acting.get(field.name)
-        usual = 0 if filled_in else usual_start(invalid, acting)
+        usual = usual_start(invalid, acting) if filled is None else filled
         unit = self._given(row, "unit", row.unit, "")
         marks = dict.fromkeys(
             mark for record in (field, *(row for _, row in rows)) for mark in record.marks
@@ -232,35 +233,6 @@ class _Resolver:
             errata=tuple(sorted(marks)),
             where=field.where,
         )
-
-    def _checksum(
-        self, message: MessageRow, signals: tuple[model.Signal, ...]
-    ) -> model.Checksum | None:
-        by_name = {signal.name: signal for signal in signals}
-        for row in self._spec.behaviour.checksums:
-            if row.signal in by_name:
-                if whole_byte(by_name[row.signal]) is None:
-                    text = f"{row.signal}: a checksum must fill one whole byte"
-                    self.faults.append(Fault(row.where, text))
-                covered = self._given(row, "bytes", row.bytes, (Decimal(0), Decimal(0)))
-                if not 0 <= covered[0] <= covered[1] < (message.length or 0):
-                    text = f"{row.signal}: bytes {covered[0]}~{covered[1]} are not in the message"
-                    self.faults.append(Fault(row.where_is("bytes"), text))
-                return model.Checksum(
-                    signal=row.signal,
-                    algorithm=self._given(row, "algorithm", row.algorithm, ""),
-                    first_byte=int(covered[0]),
-                    last_byte=int(covered[1]),
-                )
-        return None
-
-    def _counter(self, signals: tuple[model.Signal, ...]) -> model.Counter | None:
-        names = {signal.name for signal in signals}
-        for row in self._spec.behaviour.counters:
-            if row.signal in names:
-                modulus = self._given(row, "modulus", row.modulus, 1)
-                return model.Counter(signal=row.signal, modulus=modulus)
-        return None
 
     def _transfers(self) -> Iterable[Transfer]:
         for row in self._spec.behaviour.transfers:

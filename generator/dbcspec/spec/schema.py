@@ -134,8 +134,9 @@ def expect_text(node: Node) -> str:
     return node.text
 
 
-def _pattern(name: str, pattern: str, convert: Callable[[str], Any]) -> Kind:
-    compiled = re.compile(pattern)
+def pattern(name: str, expression: str, convert: Callable[[str], Any]) -> Kind:
+    """A value whose text a regular expression matches whole."""
+    compiled = re.compile(expression)
 
     def read(node: Node) -> Any:
         text = expect_text(node)
@@ -143,7 +144,7 @@ def _pattern(name: str, pattern: str, convert: Callable[[str], Any]) -> Kind:
             raise SpecError.at(node.where, f"expected {name}, not {text!r}")
         return convert(text)
 
-    return Kind(name, read, {"type": ["string", "number"], "pattern": f"^(?:{pattern})$"})
+    return Kind(name, read, {"type": ["string", "number"], "pattern": f"^(?:{expression})$"})
 
 
 def _whole_number(text: str) -> int:
@@ -153,13 +154,13 @@ def _whole_number(text: str) -> int:
 _NUMBER = r"-?\d{1,20}(?:\.\d{1,40})?"
 
 TEXT = Kind("text", expect_text, {"type": ["string", "number", "boolean", "null"]})
-INTEGER = _pattern("a whole number", r"-?\d{1,20}|0[xX][0-9A-Fa-f]{1,8}", _whole_number)
-DECIMAL = _pattern("a plain decimal number", _NUMBER, Decimal)
-NAME = _pattern("a name (letters, digits, underscore)", r"[A-Za-z_][A-Za-z0-9_]*", str)
-SIGNAL = _pattern(
+INTEGER = pattern("a whole number", r"-?\d{1,20}|0[xX][0-9A-Fa-f]{1,8}", _whole_number)
+DECIMAL = pattern("a plain decimal number", _NUMBER, Decimal)
+NAME = pattern("a name (letters, digits, underscore)", r"[A-Za-z_][A-Za-z0-9_]*", str)
+SIGNAL = pattern(
     "a signal, or message.signal", r"[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)?", str
 )
-RANGE = _pattern(
+RANGE = pattern(
     "a range such as 0~255",
     rf"{_NUMBER}~{_NUMBER}",
     lambda text: tuple(Decimal(part) for part in text.split("~")),
@@ -172,7 +173,7 @@ def _split_route(text: str) -> tuple[str, tuple[str, ...]]:
     return sender.strip("-"), tuple(name for name in receivers.split(",") if name != "-")
 
 
-ROUTE = _pattern(
+ROUTE = pattern(
     "a route such as ECU1>ECU2, with - for nobody",
     r"(?:[A-Za-z0-9_]+|-)>(?:[A-Za-z0-9_]+(?:,[A-Za-z0-9_]+)*|-)",
     _split_route,

@@ -173,14 +173,15 @@ class NotingBus(can.BusABC):
         counter, before = type(command).COUNTER, self._commands.last(type(command))
         if counter is None or before is None:
             return True
-        return bool(getattr(command, counter.field) != getattr(before, counter.field))
+        field = command.field_of(counter.signal).name
+        return bool(getattr(command, field) != getattr(before, field))
 
     def _safe_frame(self, message: Message) -> can.Message:
         kind = type(message)
         counter = None
         if kind.COUNTER:
-            last = getattr(message, kind.COUNTER.field)
-            counter = (last + 1) % kind.COUNTER.modulus if isinstance(last, int) else 0
+            last = getattr(message, kind.field_of(kind.COUNTER.signal).name)
+            counter = kind.COUNTER.after(last) if isinstance(last, int) else kind.COUNTER.first
         frame = self._codec.frame(message, counter=counter, safe=True)
         number, extended = identifier_of(frame)
         data = bytes(frame.data)

@@ -25,7 +25,8 @@ from typedcan.judge.rules import rules_for
 from typedcan.judge.series import Series
 from typedcan.logs import protocol as logs
 from typedcan.logs.cells.cycles import CellColumns, CycleTable
-from typedcan.logs.checks import checksums_right, has_checksum, rows_where
+from typedcan.logs.checks import rows_where
+from typedcan.logs.checksums import checksums_right, has_checksum
 from typedcan.logs.columns import MessageColumns
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock

@@ -8,10 +8,18 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from typedcan.logs.checksums import (
+    NONE,
+    checksums_right,
+    counter_places,
+    has_checksum,
+    raw_values,
+)
 from typedcan.logs.columns import Column, DecodedBlock, MessageColumns
 from typedcan.logs.protocol import Protocol
-from typedcan.model.layout import first_bit, whole_byte
-from typedcan.model.protocol import ByteOrder, Message, Signal
+from typedcan.model.checksums.registry import Given
+from typedcan.model.protection import Counter as AliveCounter
+from typedcan.model.protocol import Message, Signal
 
 PERIODS = 5
 """More than so many periods without a frame are a gap."""
@@ -66,7 +74,7 @@ class _Counting:
     """The alive counter of a message: where it is and how it runs."""
 
     signal: Signal
-    modulus: int
+    runs: AliveCounter
     reserved: tuple[int, ...]
 
 
@@ -83,11 +91,16 @@ class Checks:
     keep_faulty
         Count wrong lengths and checksums, but leave the frames in. Their counters are passed over
         all the same.
+    algorithms
+        What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
     """
 
-    def __init__(self, protocol: Protocol, *, keep_faulty: bool = False) -> None:
+    def __init__(
+        self, protocol: Protocol, *, keep_faulty: bool = False, algorithms: Given = NONE
+    ) -> None:
         self.faults = Faults()
         self._checked = protocol.checked
+        self._algorithms = algorithms
         self._periods = {
             name: period
             for name, period in protocol.periods.items()
@@ -132,8 +145,9 @@ class Checks:
         wrong = len(good) - int(np.count_nonzero(good))
         if wrong:
             self.faults.length[message.name] += wrong
-        if has_checksum(message):
-            right = checksums_right(message, columns.block.data[columns.rows])
+        if has_checksum(message, self._algorithms):
+            payload = columns.block.data[columns.rows]
+            right = checksums_right(message, payload, self._algorithms)
             wrong = int(np.count_nonzero(good & ~right))
             if wrong:
                 self.faults.checksum[message.name] += wrong
@@ -161,13 +175,13 @@ class Checks:
     def _counter(
         self, key: tuple[str, int | str | None], counting: _Counting, values: NDArray[np.uint64]
     ) -> None:
-        numbers = values.astype(np.int64)
-        sound = (numbers < counting.modulus) & ~np.isin(numbers, counting.reserved)
+        numbers = counter_places(counting.runs, values)
+        sound = (numbers >= 0) & ~np.isin(values, counting.reserved)
         last = self._last_counter.get(key)
         before = np.append(
             np.int64(-1 if last is None else last), np.where(sound, numbers, -1)[:-1]
         )
-        follows = (before < 0) | (numbers == (before + 1) % counting.modulus)
+        follows = (before < 0) | (numbers == (before + 1) % counting.runs.modulus)
         wrong = int(np.count_nonzero(~(sound & follows)))
         if wrong:
             self.faults.counter[key[0]] += wrong
@@ -178,34 +192,6 @@ class Checks:
         long = steps[steps > PERIODS * self._periods[name]]
         if len(long):
             self.faults.gaps.setdefault(name, Gaps()).add(Gaps(len(long), float(long.max())))
-
-
-def has_checksum(message: Message) -> bool:
-    """Whether the protocol states how the checksum of a message is made."""
-    checksum = message.checksum
-    if checksum is None or checksum.algorithm != "xor":
-        return False
-    return whole_byte(message.signal(checksum.signal)) is not None
-
-
-def checksums_right(message: Message, payload: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """Which payloads, a row each, carry the checksum of their bytes; needs `has_checksum`."""
-    checksum = message.checksum
-    byte = None if checksum is None else whole_byte(message.signal(checksum.signal))
-    if checksum is None or byte is None:
-        raise ValueError(f"{message.name} has no checksum")
-    covered = payload[:, checksum.first_byte : checksum.last_byte + 1]
-    right: NDArray[np.bool_] = np.bitwise_xor.reduce(covered, axis=1) == payload[:, byte]
-    return right
-
-
-def raw_values(signal: Signal, payload: NDArray[np.uint8]) -> NDArray[np.uint64]:
-    """The raw values of an unsigned signal in the first eight bytes of payloads, a row each."""
-    order, shift = "<u8", signal.start
-    if signal.byte_order is ByteOrder.MOTOROLA:
-        order, shift = ">u8", 64 - first_bit(signal) - signal.length
-    words = np.ascontiguousarray(payload[:, :8]).view(order)[:, 0].astype(np.uint64)
-    return (words >> np.uint64(shift)) & np.uint64((1 << signal.length) - 1)
 
 
 def rows_where(columns: MessageColumns, kept: NDArray[np.bool_]) -> MessageColumns:
@@ -239,5 +225,5 @@ def _counters(protocol: Protocol) -> dict[str, _Counting]:
         if counter:
             signal = message.signal(counter.signal)
             reserved = tuple(protocol.reserved.get((message.name, counter.signal), ()))
-            counters[message.name] = _Counting(signal, counter.modulus, reserved)
+            counters[message.name] = _Counting(signal, counter, reserved)
     return counters

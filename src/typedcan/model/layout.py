@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from decimal import Decimal
+from typing import Literal
 
 from typedcan.model.protocol import ByteOrder, ReservedBits, Signal
 
@@ -46,6 +47,22 @@ def bits_reader(signal: Signal, length: int) -> Callable[[bytes], int]:
         return lambda data: int.from_bytes(data, "little") >> low & mask
     below = 8 * length - first_bit(signal) - signal.length
     return lambda data: int.from_bytes(data, "big") >> below & mask
+
+
+def bits_writer(signal: Signal, length: int) -> Callable[[bytes, int], bytes]:
+    """What writes an unsigned number into those bits and leaves the others."""
+    mask = (1 << signal.length) - 1
+    order: Literal["little", "big"] = "little"
+    low = signal.start
+    if signal.byte_order is ByteOrder.MOTOROLA:
+        order, low = "big", 8 * length - first_bit(signal) - signal.length
+
+    def write(data: bytes, raw: int) -> bytes:
+        number = int.from_bytes(data, order)
+        number ^= (number >> low & mask ^ raw) << low
+        return number.to_bytes(length, order)
+
+    return write
 
 
 def whole_byte(signal: Signal) -> int | None:

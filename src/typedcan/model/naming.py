@@ -20,7 +20,7 @@ _NO_FIELDS = frozenset(
         *keyword.kwlist,
         *dir(builtins),
         *("MODEL", "NAME", "FRAME_ID", "EXTENDED", "LENGTH", "SENDER", "RECEIVERS", "PERIOD"),
-        *("FIELDS", "CHECKSUM", "COUNTER", "SELECTED", "to_raw", "_is_there"),
+        *("FIELDS", "CHECKSUM", "COUNTER", "SELECTED", "field_of", "to_raw", "_is_there"),
     }
 )
 """Names that Python, the annotations of fields, or all typed messages need."""

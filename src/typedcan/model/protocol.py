@@ -15,6 +15,7 @@ from functools import cached_property
 
 from typedcan.model.canonical import canonical
 from typedcan.model.errors import Location
+from typedcan.model.protection import Checksum, Counter
 from typedcan.model.signal import NOWHERE as NOWHERE
 from typedcan.model.signal import ByteOrder as ByteOrder
 from typedcan.model.signal import Code as Code
@@ -51,24 +52,6 @@ class Aspect(Enum):
     TRANSFERS = "transfers and requests"
     ACTS = "codes that act"
     FRAME_FORMATS = "classic CAN or CAN FD"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Checksum:
-    """A checksum over the bytes first to last, carried by a signal of one whole byte."""
-
-    signal: str
-    algorithm: str
-    first_byte: int
-    last_byte: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Counter:
-    """An alive counter that runs 0 to modulus - 1."""
-
-    signal: str
-    modulus: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

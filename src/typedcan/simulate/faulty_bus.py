@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 import threading
 from collections import Counter, deque
-from collections.abc import Mapping
 from copy import copy
 from typing import Any
 
 import can
 
+from typedcan.model.checksums.registry import Given
+from typedcan.model.layout import bits_reader, bits_writer
+from typedcan.model.seal import seals_of
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from typedcan.simulate.times import PlanError
 from typedcan.wire.database import database
 from typedcan.wire.message import Message
-from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from typedcan.wire.protocol import Protocol
 
 _AT_MOST = 0.1
@@ -54,12 +55,12 @@ class FaultyBus(can.BusABC):
         protocol: Protocol,
         *,
         clock: Clock | None = None,
-        algorithms: Mapping[str, Algorithm] | None = None,
+        algorithms: Given | None = None,
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
         self._entries = database(protocol)
-        self._algorithms = {**STANDARD_ALGORITHMS, **(algorithms or {})}
+        self._seals = seals_of(protocol.model, algorithms or {})
         # How many-th frames a fault hits, by the fault and the message, None for all messages.
         self._active: dict[tuple[str, type[Message] | None], int] = {}
         self._seen: Counter[tuple[str, int]] = Counter()
@@ -198,10 +199,11 @@ class FaultyBus(can.BusABC):
     def _altered(self, frame: can.Message, kind: type[Message]) -> can.Message:
         data = bytes(frame.data)
         if kind.COUNTER and self._hits("stuck_counter", frame, kind):
-            data = self._with_stuck_counter(data, kind, kind.COUNTER.dbc_name)
+            data = self._with_stuck_counter(data, kind, kind.COUNTER.signal)
         if kind.CHECKSUM and self._hits("wrong_checksum", frame, kind):
-            byte = kind.CHECKSUM.byte
-            data = data[:byte] + bytes((data[byte] ^ 0xFF,)) + data[byte + 1 :]
+            signal = kind.MODEL.signal(kind.CHECKSUM.signal)
+            wrong = bits_reader(signal, len(data))(data) ^ (1 << signal.length) - 1
+            data = bits_writer(signal, len(data))(data, wrong)
         if data == frame.data:
             return frame
         altered = copy(frame)
@@ -213,7 +215,8 @@ class FaultyBus(can.BusABC):
         names = (field.dbc_name for field in kind.FIELDS.values())
         raw: dict[str, Any] = dict(zip(names, packer.unpack(data), strict=True))
         raw[counter] = self._stuck.setdefault(kind, raw[counter])
-        return sealed(kind, packer.pack(raw), self._algorithms)
+        data, seal = packer.pack(raw), self._seals.get(kind.NAME)
+        return seal.filled(data) if seal else data
 
 
 def _holding_time(kind: type[Message] | None) -> float:

@@ -1,4 +1,4 @@
-"""What the model says of a message, as the parts of its class: fields, checksum and so on."""
+"""What the model says of a message, as the parts of its class: fields, and what selects them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from typedcan.model import protocol as model
 from typedcan.model.kinds import Kind, kind_of
-from typedcan.model.layout import in_bit_order, whole_byte
+from typedcan.model.layout import in_bit_order
 from typedcan.model.signal_state import SignalState
 from typedcan.wire.fields import (
     CharacterField,
@@ -21,7 +21,7 @@ from typedcan.wire.fields import (
     NumberField,
     PhysicalField,
 )
-from typedcan.wire.message import Checksum, Counter, Selected
+from typedcan.wire.message import Selected
 
 _KINDS: Mapping[Kind, type[Field]] = {
     Kind.PHYSICAL: PhysicalField,
@@ -39,32 +39,6 @@ def fields_of(message: model.Message, enums: Mapping[str, type[IntEnum]]) -> Map
     """
     fields = (_field(message, signal, enums) for signal in in_bit_order(message.signals))
     return MappingProxyType({field.name: field for field in fields})
-
-
-def checksum_of(message: model.Message) -> Checksum | None:
-    """Where the checksum stands and what it covers, if there is one."""
-    checksum = message.checksum
-    if checksum is None:
-        return None
-    carrier = message.signal(checksum.signal)
-    byte = whole_byte(carrier)
-    if byte is None:
-        return None  # the linter says so
-    return Checksum(
-        field=carrier.python_name,
-        byte=byte,
-        algorithm=checksum.algorithm,
-        first_byte=checksum.first_byte,
-        last_byte=checksum.last_byte,
-    )
-
-
-def counter_of(message: model.Message) -> Counter | None:
-    """Which field counts the frames, and how far, if one does."""
-    if message.counter is None:
-        return None
-    signal = message.signal(message.counter.signal)
-    return Counter(field=signal.python_name, dbc_name=signal.name, modulus=message.counter.modulus)
 
 
 def selected_of(message: model.Message) -> Selected:

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from types import MappingProxyType
 from typing import Any, overload
 
 import can
 
+from typedcan.model.checksums.registry import Given
+from typedcan.model.protection import Counter
 from typedcan.model.protocol import FD_LENGTHS, LONGEST_CLASSIC
+from typedcan.model.seal import seals_of
 from typedcan.wire.acting import safe_codes
 from typedcan.wire.database import Database, database
 from typedcan.wire.errors import (
     DecodeError,
+    EncodeError,
     SendingError,
     UnknownFrameError,
     UnknownMessageError,
 )
 from typedcan.wire.message import Message, MessageT
-from typedcan.wire.protect import STANDARD_ALGORITHMS, Algorithm, sealed
 from typedcan.wire.protocol import Protocol
 from typedcan.wire.reader import Reader
 
@@ -33,16 +35,20 @@ class Codec:
         Whose messages, as a package that `dbcspec generate` wrote has it, or `typed_protocol`; can
         be read again.
     algorithms
-        Checksum algorithms by name, for those that are not known here: a function from the covered
-        bytes to one byte, for example ``{"Status_CRC": my_crc}``. Without one that checksum is sent
-        as 0 and not verified.
+        By the names that the protocol has for checksum algorithms, what computes those that are not
+        known here, for example ``{"Status_CRC": my_crc}``: a function from the covered bytes to an
+        int, or a name that is known. A checksum that the standard leaves open is sent as 0 without
+        one, and not verified; a message with another one is not sent.
+
+    Raises
+    ------
+    AlgorithmError
+        No message has an algorithm of a name that is given, or what is given is none.
     """
 
-    def __init__(
-        self, protocol: Protocol, algorithms: Mapping[str, Algorithm] | None = None
-    ) -> None:
-        self._algorithms = MappingProxyType({**STANDARD_ALGORITHMS, **(algorithms or {})})
+    def __init__(self, protocol: Protocol, algorithms: Given | None = None) -> None:
         self.protocol = protocol
+        self._seals = seals_of(protocol.model, algorithms or {})
 
     @cached_property
     def _database(self) -> Database:
@@ -51,7 +57,7 @@ class Codec:
     @cached_property
     def _by_type(self) -> Mapping[type[Message], Reader]:
         entries = self._database.by_type
-        return {kind: Reader(entry, self._algorithms) for kind, entry in entries.items()}
+        return {kind: Reader(each, self._seals.get(kind.NAME)) for kind, each in entries.items()}
 
     @cached_property
     def readers(self) -> Mapping[int, Reader]:
@@ -84,7 +90,7 @@ class Codec:
         """The payload of a message.
 
         ``counter`` goes into its alive counter. A checksum or counter that the message itself
-        has is sent as it is; where it is None the checksum is computed, the counter is 0.
+        has is sent as it is; where it is None the checksum is computed, and the counter its first.
         With ``renew`` the checksum is always computed: a message that was received and is sent
         again has the old one. With ``safe`` signals with codes that act get their safe code,
         whatever the message has. Raises `EncodeError` for a value that cannot be sent.
@@ -93,14 +99,34 @@ class Codec:
         raw = message.to_raw()
         if safe:
             raw.update(safe_codes(kind))
-        if counter is not None and kind.COUNTER:
-            raw[kind.COUNTER.dbc_name] = counter
-        checksum = kind.CHECKSUM and kind.FIELDS[kind.CHECKSUM.field]
-        if checksum and renew:
-            raw[checksum.dbc_name] = 0
+        if kind.COUNTER:
+            self._count(message, raw, kind.COUNTER, counter)
+        checksum = kind.CHECKSUM
+        if checksum is None:
+            return self._database.by_type[kind].packer.pack(raw)
+        if renew:
+            raw[checksum.signal] = 0
         data = self._database.by_type[kind].packer.pack(raw)
-        if checksum and (renew or getattr(message, checksum.name) is None):
-            return sealed(kind, data, self._algorithms)
+        given = None if renew else getattr(message, kind.field_of(checksum.signal).name)
+        return self._sealed(kind, data) if given is None else data
+
+    def _count(
+        self, message: Message, raw: dict[str, int], runs: Counter, counter: int | None
+    ) -> None:
+        """Fill in the alive counter; where neither has a value, the first one."""
+        if counter is not None:
+            raw[runs.signal] = counter
+        elif runs.first and getattr(message, type(message).field_of(runs.signal).name) is None:
+            raw[runs.signal] = runs.first
+
+    def _sealed(self, kind: type[Message], data: bytes) -> bytes:
+        """The payload with its checksum, or as it is where the standard leaves that open."""
+        checksum, seal = kind.CHECKSUM, self._seals.get(kind.NAME)
+        if seal:
+            return seal.filled(data)
+        if checksum and not checksum.is_open:
+            problem = f"nothing here computes {checksum.algorithm!r}: give Codec that algorithm"
+            raise EncodeError(kind.NAME, kind.field_of(checksum.signal).name, None, problem)
         return data
 
     def frame(

@@ -56,7 +56,7 @@ def database(protocol: Protocol) -> Database:
 
 
 def _entry(message: type[Message], protocol: Protocol) -> Entry:
-    counter = message.COUNTER and message.FIELDS[message.COUNTER.field].signal
+    counter = message.COUNTER and message.MODEL.signal(message.COUNTER.signal)
     return Entry(
         type=message,
         packer=packer_of(message.MODEL),

@@ -10,7 +10,7 @@ from typedcan.model import protocol as model
 from typedcan.model.kinds import Kind, enums, kind_of
 from typedcan.model.layout import in_bit_order
 from typedcan.model.naming import member_names
-from typedcan.wire.binding import checksum_of, counter_of, fields_of, selected_of
+from typedcan.wire.binding import fields_of, selected_of
 from typedcan.wire.decoding import decoder_of
 from typedcan.wire.fields import Field
 from typedcan.wire.message import Message
@@ -60,8 +60,8 @@ def _message_class(message: model.Message, codes: dict[str, type[IntEnum]]) -> t
             "RECEIVERS": message.receivers,
             "PERIOD": message.period / 1000 if message.period else None,
             "FIELDS": parts,
-            "CHECKSUM": checksum_of(message),
-            "COUNTER": counter_of(message),
+            "CHECKSUM": message.checksum,
+            "COUNTER": message.counter,
             "SELECTED": selected,
         },
         frozen=True,

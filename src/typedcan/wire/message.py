@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
 
 from typedcan.model import protocol as model
 from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
+from typedcan.model.protection import Checksum, Counter
 from typedcan.model.signal_state import SignalState
 from typedcan.wire.fields import (
     CharacterField,
@@ -54,26 +54,6 @@ Selected = Mapping[str, tuple[str, tuple[int, ...]]]
 """Fields of branches: the field that selects each, and the raw values with which it does."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Checksum:
-    """Where the checksum of a message stands and which bytes, first to last, it covers."""
-
-    field: str
-    byte: int
-    algorithm: str
-    first_byte: int
-    last_byte: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Counter:
-    """The alive counter of a message: its signal runs 0 to modulus - 1."""
-
-    field: str
-    dbc_name: str
-    modulus: int
-
-
 class Message:
     """Base of all typed messages; each is a frozen dataclass with one field per signal.
 
@@ -113,6 +93,11 @@ class Message:
         if self.SELECTED:
             parts = [part for part in parts if self._is_there(part.name)]
         return {part.dbc_name: part.to_raw(name, getattr(self, part.name)) for part in parts}
+
+    @classmethod
+    def field_of(cls, signal: str) -> Field:
+        """The field of the signal of that name in the DBC file; raises `KeyError`."""
+        return cls.FIELDS[cls.MODEL.signal(signal).python_name]
 
     def _is_there(self, field: str) -> bool:
         """Whether the selectors select a field of a branch."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-
+from typedcan.model.seal import Seal
 from typedcan.wire.database import Entry
 from typedcan.wire.errors import ChecksumError, LengthError
-from typedcan.wire.message import Checksum, Message
-from typedcan.wire.protect import Algorithm
+from typedcan.wire.message import Message
 
 _KEPT = 256
 """How many messages are kept: as many as a counter of a byte has values."""
@@ -16,12 +14,14 @@ _KEPT = 256
 class Reader:
     """Checks and decodes the payloads of one message.
 
+    ``counter`` reads the alive counter in a payload of full length, where there is one.
+
     Parameters
     ----------
     entry
         The message.
-    algorithms
-        Checksum algorithms by name; a checksum of another one is not verified.
+    seal
+        What makes the checksum; without it none is verified.
 
     Attributes
     ----------
@@ -35,9 +35,9 @@ class Reader:
     """
 
     __slots__ = (
-        "_algorithm",
         "_decode",
         "_decoded",
+        "_seal",
         "_unpack",
         "counter",
         "frame_length",
@@ -47,7 +47,7 @@ class Reader:
         "verify",
     )
 
-    def __init__(self, entry: Entry, algorithms: Mapping[str, Algorithm]) -> None:
+    def __init__(self, entry: Entry, seal: Seal | None) -> None:
         self.kind = kind = entry.type
         self._unpack = entry.packer.unpack
         self._decode = entry.decode
@@ -55,8 +55,8 @@ class Reader:
         self.length, self.frame_length = kind.LENGTH, kind.MODEL.frame_length
         self.other_format = None if entry.is_fd is None else not entry.is_fd
         self.counter = entry.counter
-        self._algorithm = algorithms.get(kind.CHECKSUM.algorithm) if kind.CHECKSUM else None
-        self.verify = _verifier(kind.CHECKSUM, self._algorithm)
+        self._seal = seal
+        self.verify = seal and seal.verify
 
     def payload(self, data: bytes, *, verify: bool = True) -> bytes:
         """The payload in the bytes of a frame, without those that fill a CAN FD frame up.
@@ -71,11 +71,10 @@ class Reader:
 
     def refusal(self, data: bytes) -> LengthError | ChecksumError:
         """Why a payload is refused, with a wrong length or else a wrong checksum."""
-        kind, checksum = self.kind, self.kind.CHECKSUM
-        if len(data) != self.length or not checksum or not self._algorithm:
+        kind, seal = self.kind, self._seal
+        if len(data) != self.length or not seal:
             return LengthError(kind.FRAME_ID, data, kind.NAME, self.length)
-        expected = self._algorithm(data[checksum.first_byte : checksum.last_byte + 1])
-        received = data[checksum.byte]
+        received, expected = seal.read(data), seal.expected(data)
         return ChecksumError(kind.FRAME_ID, data, kind.NAME, received=received, expected=expected)
 
     def decode(self, data: bytes) -> Message:
@@ -89,12 +88,3 @@ class Reader:
                 self._decoded.clear()
             message = self._decoded[data] = self._decode(self._unpack(data))
         return message
-
-
-def _verifier(
-    checksum: Checksum | None, algorithm: Algorithm | None
-) -> Callable[[bytes], bool] | None:
-    if checksum is None or algorithm is None:
-        return None
-    first, after, byte = checksum.first_byte, checksum.last_byte + 1, checksum.byte
-    return lambda data: algorithm(data[first:after]) == data[byte]

@@ -79,7 +79,7 @@ def _signals(message: type[Message], name: str) -> Iterator[Source]:
 def _frames(message: type[Message]) -> Iterator[Source]:
     yield Source(message=message, name=message.NAME)
     if message.COUNTER is not None:
-        yield _signal(message, message.FIELDS[message.COUNTER.field])
+        yield _signal(message, message.field_of(message.COUNTER.signal))
 
 
 def _signal(message: type[Message], part: Field) -> Source:

@@ -11,11 +11,10 @@ from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
-from typedcan.logs.checks import has_checksum
-from typedcan.model.layout import whole_byte
+from typedcan.logs.checksums import has_checksum
+from typedcan.model.seal import seal_of
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
-from typedcan.wire.protect import STANDARD_ALGORITHMS, expected_checksum
 from typedcan.wire.protocol import Protocol
 
 _WRONG = Text(
@@ -43,11 +42,9 @@ class Checksum(Watcher):
 
 
 def _describe(series: Series, row: int) -> Said:
-    data = bytes(series.payload[row])
-    right = expected_checksum(series.message, data, STANDARD_ALGORITHMS)
-    checksum = series.message.MODEL.checksum
-    place = whole_byte(series.message.MODEL.signal(checksum.signal)) if checksum else None
-    return _WRONG, {"given": data[place or 0], "right": right}
+    data = bytes(series.payload[row])[: series.message.LENGTH]
+    seal = seal_of(series.message.MODEL, {})
+    return _WRONG, {"given": seal and seal.read(data), "right": seal and seal.expected(data)}
 
 
 def rule(protocol: Protocol) -> Rule:

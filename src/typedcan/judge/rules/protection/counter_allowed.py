@@ -9,12 +9,15 @@ from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
+from typedcan.logs.checksums import counter_places
+from typedcan.model.protection import Counter
 from typedcan.report.language import Text
-from typedcan.wire.message import Counter, Message
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 _FORBIDDEN = Text(
-    "the counter is {value}; it runs from 0 to {last}", "计数值为 {value},应在 0~{last} 之间"
+    "the counter is {value}; it runs from {first} to {last}",
+    "计数值为 {value},应在 {first}~{last} 之间",
 )
 
 
@@ -31,14 +34,15 @@ class CounterAllowed(Watcher):
         """Judge the next frames."""
         for message, counter in self._counters:
             series = chunk.sound(message)
-            wrong = series.raw(counter.field) >= counter.modulus
-            subject = Subject(message.SENDER, message.NAME, counter.dbc_name)
+            raw = series.raw(message.field_of(counter.signal).name)
+            wrong = counter_places(counter, raw) < 0
+            subject = Subject(message.SENDER, message.NAME, counter.signal)
             self.findings.rows(subject, series, wrong, partial(_describe, series, counter))
 
 
 def _describe(series: Series, counter: Counter, row: int) -> Said:
-    value = int(series.raw(counter.field)[row])
-    return _FORBIDDEN, {"value": value, "last": counter.modulus - 1}
+    value = int(series.raw(series.message.field_of(counter.signal).name)[row])
+    return _FORBIDDEN, {"value": value, "first": counter.first, "last": counter.last}
 
 
 def rule(protocol: Protocol) -> Rule:
@@ -47,7 +51,7 @@ def rule(protocol: Protocol) -> Rule:
         (message, counter)
         for message in protocol.messages
         if (counter := message.COUNTER)
-        and counter.modulus < 1 << message.FIELDS[counter.field].length
+        and counter.modulus < 1 << message.field_of(counter.signal).length
     )
     return Rule(
         id="counter-allowed",

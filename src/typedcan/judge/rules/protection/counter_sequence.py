@@ -14,8 +14,10 @@ from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
 from typedcan.logs.checks import PERIODS
+from typedcan.logs.checksums import counter_places
+from typedcan.model.protection import Counter
 from typedcan.report.language import Text
-from typedcan.wire.message import Counter, Message
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 _REPEATED = Text("repeated: the counter stays at {value}", "重复:计数值停在 {value}")
@@ -64,13 +66,13 @@ class CounterSequence(Watcher):
             if not frames.fresh:
                 continue
             number, pause = self._numbers(message, frames, sound)
-            raw = sound.raw(counter.field)
+            raw = counter_places(counter, sound.raw(message.field_of(counter.signal).name))
             steps = np.diff(number, prepend=number[:1])
             due = (np.roll(raw, 1) + steps) % counter.modulus
-            sane = raw < counter.modulus
+            sane = raw >= 0
             wrong = sane & np.roll(sane, 1) & (pause == np.roll(pause, 1)) & (raw != due)
             wrong[:1] = False  # there is nothing before
-            subject = Subject(message.SENDER, message.NAME, counter.dbc_name)
+            subject = Subject(message.SENDER, message.NAME, counter.signal)
             described = partial(_describe, counter, raw, steps)
             self.findings.rows(subject, sound, wrong, described)
 
@@ -96,11 +98,12 @@ class CounterSequence(Watcher):
 
 
 def _describe(counter: Counter, raw: NDArray[np.int64], steps: NDArray[np.int64], row: int) -> Said:
-    before, value = int(raw[row - 1]), int(raw[row])
-    if value == before:
-        return _REPEATED, {"value": value}
+    before, at = int(raw[row - 1]), int(raw[row])
     due = (before + int(steps[row])) % counter.modulus
-    return _SKIPPED, {"before": before, "value": value, "due": due}
+    value, *others = (counter.first + each * counter.step for each in (at, before, due))
+    if at == before:
+        return _REPEATED, {"value": value}
+    return _SKIPPED, {"before": others[0], "value": value, "due": others[1]}
 
 
 def rule(protocol: Protocol) -> Rule:

@@ -1,0 +1,1 @@
+"""The checksum algorithms: one registry for specs, live codecs, columns and the judge."""
