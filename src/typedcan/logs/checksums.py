@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, reduce
 from types import MappingProxyType
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from typedcan.model.checksums.methods import Crc, Method, Sum
 from typedcan.model.checksums.registry import Given, chosen_of
-from typedcan.model.layout import bits
+from typedcan.model.layout import bits, whole_byte
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import Message, Signal
 from typedcan.model.seal import seal_of
@@ -52,17 +52,24 @@ def checksums_right(
         content, length = payload[:, : message.length].tobytes(), message.length
         rows = (content[at : at + length] for at in range(0, len(content), length))
         made = np.fromiter(map(seal.expected, rows), np.uint64, len(payload))
-    right: NDArray[np.bool_] = raw_values(signal, payload) == made
+    byte = whole_byte(signal)
+    carried = raw_values(signal, payload) if byte is None else payload[:, byte]
+    right: NDArray[np.bool_] = carried == made
     return right
 
 
 def raw_values(signal: Signal, payload: NDArray[np.uint8]) -> NDArray[np.uint64]:
     """The raw values of an unsigned signal in payloads, a row each."""
-    raw = np.zeros(len(payload), np.uint64)
-    for byte, (lowest, kept, shift) in _parts(signal).items():
-        piece = (payload[:, byte] >> np.uint8(lowest)) & np.uint8(kept)
-        raw |= piece.astype(np.uint64) << np.uint64(shift)
-    return raw
+    pieces = [
+        _bits_of(payload[:, byte], lowest, kept).astype(np.uint64) << np.uint64(shift)
+        for byte, (lowest, kept, shift) in _parts(signal).items()
+    ]
+    return reduce(np.bitwise_or, pieces)
+
+
+def _bits_of(column: NDArray[np.uint8], lowest: int, kept: int) -> NDArray[np.uint8]:
+    shifted = column >> np.uint8(lowest) if lowest else column
+    return shifted if kept << lowest > 0x7F else shifted & np.uint8(kept)
 
 
 def _parts(signal: Signal) -> dict[int, tuple[int, int, int]]:
@@ -76,9 +83,12 @@ def _parts(signal: Signal) -> dict[int, tuple[int, int, int]]:
 
 def counter_places(counter: Counter, raw: NDArray[Any]) -> NDArray[np.int64]:
     """Which of its values a counter has, from 0; -1 for one that it does not run through."""
-    away = raw.astype(np.int64) - counter.first
-    index, rest = np.divmod(away, counter.step)
-    return np.where((rest == 0) & (index >= 0) & (index < counter.modulus), index, -1)
+    index = raw.astype(np.int64) - counter.first
+    own = (index >= 0) & (index < counter.modulus)
+    if counter.step != 1:
+        index, rest = np.divmod(index, counter.step)
+        own = (rest == 0) & (index >= 0) & (index < counter.modulus)
+    return np.where(own, index, -1)
 
 
 def _pieces(message: Message, checksum: Checksum, payload: NDArray[np.uint8]) -> list[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +57,7 @@ class Checksum:
         return f"{self.algorithm} of {bytes_} {self.covers(' to ', ', ')}{more}{open_}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Counter:
     """An alive counter: it runs through ``modulus`` values, from ``first`` on by ``step``."""
 
@@ -65,7 +66,7 @@ class Counter:
     first: int = 0
     step: int = 1
 
-    @property
+    @cached_property
     def last(self) -> int:
         """The last value."""
         return self.first + (self.modulus - 1) * self.step
@@ -78,6 +79,10 @@ class Counter:
     def after(self, value: int) -> int:
         """What comes after a value of its own: after the last one the first."""
         return self.first if value == self.last else value + self.step
+
+    def before(self, value: int) -> int:
+        """What comes before a value of its own."""
+        return self.last if value == self.first else value - self.step
 
     def __str__(self) -> str:
         by = f" by {self.step}" if abs(self.step) != 1 else ""

@@ -39,7 +39,7 @@ class ReceiveCounters:
     """What the alive counters of the other nodes were last, and what they should be next."""
 
     def __init__(self) -> None:
-        self._last: dict[type[Message], tuple[int, int]] = {}
+        self._next: dict[type[Message], int] = {}
 
     def problem(self, kind: type[Message], value: int) -> CounterProblem | None:
         """What is wrong with the counter of a message just received, or None.
@@ -50,14 +50,15 @@ class ReceiveCounters:
         counter = kind.COUNTER
         if counter is None:
             return None
-        last, expected = self._last.get(kind, (None, value))
-        if not counter.holds(value):
-            self._last.pop(kind, None)
+        expected = self._next.get(kind)
+        if value != expected and not counter.holds(value):
+            self._next.pop(kind, None)
             said = kind.field_of(counter.signal).states.get(value, value)
             return CounterProblem("invalid", f"counter is {said}, it runs {counter}")
-        self._last[kind] = value, counter.after(value)
-        if value == expected:
+        self._next[kind] = counter.after(value)
+        if expected is None or value == expected:
             return None
+        last = counter.before(expected)
         if value == last:
             return CounterProblem("repeated", f"counter stays at {value}")
         text = f"counter goes from {last} to {value}, expected {expected}"

@@ -56,7 +56,7 @@ class Reader:
         self.other_format = None if entry.is_fd is None else not entry.is_fd
         self.counter = entry.counter
         self._seal = seal
-        self.verify = seal and seal.verify
+        self.verify = seal.verify if seal else None
 
     def payload(self, data: bytes, *, verify: bool = True) -> bytes:
         """The payload in the bytes of a frame, without those that fill a CAN FD frame up.
