@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import can
 
 from swapcan._generated.protocol import PROTOCOL
+from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import Clock
-from typedcan.simulate import faulty_bus
-from typedcan.simulate.faults import FaultKind, Faults
-from typedcan.wire.protect import Algorithm
 from typedcan.wire.protocol import Protocol
 
 _FAULTS = Faults(
@@ -56,6 +52,6 @@ class FaultyBus(faulty_bus.FaultyBus):
         *,
         clock: Clock | None = None,
         protocol: Protocol = PROTOCOL,
-        algorithms: Mapping[str, Algorithm] | None = None,
+        algorithms: Given | None = None,
     ) -> None:
         super().__init__(bus, protocol, clock=clock, algorithms=algorithms)
