@@ -181,7 +181,7 @@ def test_of_a_checksum_a_frame_is_not_handled_and_those_after_it_are(
         return 0
 
     failed, heard = Recorder(), Recorder()
-    node = bench.node("TMS", near, codec=Codec(algorithms={"BMS_CRC": crc, "TMS_CRC": crc}))
+    node = bench.node("TMS", near, codec=Codec(algorithms={"BMS_CRC": crc}))
     node.on(ReceiveFailed, failed)
     node.on(BMS_TMS_0, heard)
     request = can.Message(arbitration_id=BMS_TMS_0.FRAME_ID, data=bytes(8))

@@ -9,7 +9,7 @@ from functools import cache
 
 from typedcan.model.checksums.catalogue import CATALOGUE
 from typedcan.model.checksums.methods import Algorithm, Crc, Method, Sum, Xor
-from typedcan.model.errors import TypedcanError
+from typedcan.model.errors import TypedcanError, one_line
 
 Given = Mapping[str, Algorithm | str]
 """By the name in the spec, what computes an algorithm: a function, or what `method_of` knows."""
@@ -112,8 +112,7 @@ def _watched(name: str, function: Algorithm, bits: int) -> Algorithm:
         try:
             value = function(data)
         except Exception as error:
-            text = " ".join(f"{type(error).__name__}: {error}".split())
-            raise AlgorithmError(f"the algorithm {name} raised {text}") from error
+            raise AlgorithmError(f"the algorithm {name} raised {one_line(error)}") from error
         if not isinstance(value, int) or isinstance(value, bool):
             raise AlgorithmError(f"the algorithm {name} made {value!r:.40}, which is no int")
         if not 0 <= value < 1 << bits:
