@@ -7,6 +7,8 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import Clock
+from typedcan.simulate import faulty_bus
+from typedcan.simulate.faults import FaultKind, Faults
 from typedcan.wire.protocol import Protocol
 
 _FAULTS = Faults(
