@@ -26,7 +26,8 @@ CHINESE = Path(__file__).parents[2] / "dbc" / "caamtb-swap.zh-utf8.dbc"
 def chinese(tmp_path: Path) -> Codec:
     """The standard with labels of a Chinese DBC, and message classes of its own."""
     path = tmp_path / "chinese.dbc"
-    path.write_text(CHINESE.read_text("utf-8").replace('"Closed"', '"闭合"'), "utf-8")
+    text = CHINESE.read_text("utf-8").replace('"Closed"', '"闭合"')
+    path.write_text(text.replace('"HV closed"', '"on\x1b[2J"'), "utf-8")
     return TOOL.codec(Namespace(dbc=path))
 
 
@@ -57,3 +58,16 @@ def test_a_database_of_this_standard_shows_the_pack_in_its_own_words(chinese: Co
     assert [alarm.signal for alarm in picture.alarms] == ["B2V_ST1_Flt_OverTemp"]
     told = [str(each.event) for each in monitored.session.events()]
     assert f"VIN {vin}" in told
+
+
+def test_the_pack_in_the_view_is_aligned_and_steers_no_terminal(chinese: Codec) -> None:
+    pytest.importorskip("textual", reason="the view needs textual")
+    monitored = Monitored(Watch(0.0, chinese, glance=glance_of(chinese.protocol)))
+    monitored.hear(frame("B2V_ST0", 0.0, ST_MainPos=2, ST_MainNeg=1), frame("B2V_ST1", 0.0, BMS=2))
+    lines: list[str] = monitored.at(0.0).look.text(99).plain.split("\n")
+    assert any(r"state      on\x1b[2J" in line for line in lines)
+    # Beside each other: each Chinese character takes two places of the terminal.
+    (closed,) = (line for line in lines if "闭合" in line)
+    (above,) = (line for line in lines if "insul. +" in line)
+    before = closed[: closed.index("insul. -")]
+    assert len(before) + before.count("闭") + before.count("合") == above.index("insul. +")

@@ -144,6 +144,28 @@ def test_clearing_counts_anew_and_keeps_what_was_said(monitored: Monitored) -> N
     assert row(monitored.at(0.1), "B2V_ST2").frames == 1
 
 
+def test_after_clearing_each_kind_of_fault_is_counted_from_nothing(monitored: Monitored) -> None:
+    def one_of_each(at: float) -> list[can.Message]:
+        return [
+            can.Message(arbitration_id=0x1882D0F3, data=bytes(7), timestamp=at),
+            can.Message(arbitration_id=0x1881D0F3, data=bytes([1, *bytes(7)]), timestamp=at),
+            *(frame("B2V_ST1", at, ALIV=3) for _ in range(2)),
+            can.Message(arbitration_id=0x123, timestamp=at),
+            can.Message(is_error_frame=True, timestamp=at),
+        ]
+
+    monitored.hear(*one_of_each(0.0), *one_of_each(0.1))
+    monitored.session.clear()
+    assert monitored.session.status().messages == 0
+    monitored.hear(frame("B2V_ST1", 0.2, ALIV=4), *one_of_each(0.2))
+    totals = monitored.at(0.3).totals
+    assert (totals.length, totals.checksum, totals.foreign, totals.errors) == (1, 1, 1, 1)
+    assert totals.counter == 2  # a 3 after the 4, and another 3
+    assert totals.seconds == pytest.approx(0.2)
+    status = monitored.session.status()
+    assert (status.frames, status.messages) == (totals.frames, totals.messages) == (7, 3)
+
+
 def test_a_remote_frame_loads_the_bus_without_data(monitored: Monitored) -> None:
     monitored.hear(
         can.Message(is_remote_frame=True, dlc=8, arbitration_id=0x1882D0F3, timestamp=0.5),

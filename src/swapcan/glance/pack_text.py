@@ -11,6 +11,7 @@ from swapcan.glance.cells import Cell, CellMap
 from swapcan.glance.pack import Item, Pack, Section
 from swapcan.transfer import Reading
 from typedcan.monitor.view.styles import ALERT, mark_text
+from typedcan.shell.printing import printable
 from typedcan.wire.message import SignalState
 
 _BLOCK = 33
@@ -44,7 +45,7 @@ def _blocks(pack: Pack, width: int) -> Iterator[Text]:
             line = Text()
             for part in (part or Text() for part in parts):
                 part.truncate(_BLOCK - 1, overflow="ellipsis")
-                part.pad_right(_BLOCK - len(part))
+                part.pad_right(_BLOCK - part.cell_len)  # a Chinese character takes two
                 line.append_text(part)
             line.rstrip()
             yield line
@@ -57,9 +58,10 @@ def _block(section: Section) -> list[Text]:
 
 def _item(item: Item) -> Text:
     line = Text(f"{item.label:<{_LABEL}}")
+    text = printable(item.text)  # labels and units come from a file
     if item.mark == "alarm":
-        return line.append(f"! {item.text}", ALERT)
-    line.append(f"{item.text or '-'} ")
+        return line.append(f"! {text}", ALERT)
+    line.append(f"{text or '-'} ")
     # What is invalid says so itself.
     return line.append_text(mark_text("" if item.mark == "invalid" else item.mark))
 
