@@ -36,6 +36,7 @@ def worded(rule: Rule) -> Rule:
 
 WORDINGS: Mapping[str, Wording] = {
     "frame-kind": Wording(
+        title=Text("Frames are classical data frames", "帧为经典 CAN 数据帧"),
         clause="4.2.1, 4.2.2",
     ),
     "frame-length": Wording(

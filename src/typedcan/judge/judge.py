@@ -14,10 +14,11 @@ from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.decoded import DecodedChunk
 from typedcan.judge.findings import Findings
 from typedcan.judge.judgement import Judgement, RuleResult
-from typedcan.judge.measure.homes import Homes, is_judged
+from typedcan.judge.measure.channels import Channels, has_format, has_length
 from typedcan.judge.measure.left_over import keys_of, left_over
 from typedcan.judge.measure.load import LoadMeter
 from typedcan.judge.measure.periods import PeriodMeter
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.steps import StepMeter
 from typedcan.judge.measure.traffic import Traffic
 from typedcan.judge.rule import Rule
@@ -63,7 +64,7 @@ class Judge:
     Raises
     ------
     JudgeError
-        There is no such node or tolerance.
+        There is no such node or tolerance, or nobody to judge.
     """
 
     def __init__(
@@ -76,11 +77,12 @@ class Judge:
         known: Sequence[Rule] = (),
     ) -> None:
         rules = rules_for(protocol) if rules is None else rules
-        self.nodes = protocol.nodes if nodes is None else tuple(nodes)
+        every = nodes_of(protocol)
+        self.nodes = every if nodes is None else tuple(nodes)
         self._protocol = protocol
         self._limits = dict(limits or {})
-        _check(protocol, self.nodes, self._limits, (*rules, *known))
-        judged = [node for node in protocol.nodes if node in self.nodes]
+        _check(every, self.nodes, self._limits, (*rules, *known))
+        judged = [node for node in every if node in self.nodes]
         self._findings = [(rule, Findings(judged, self._limits)) for rule in rules]
         self._watchers = [
             rule.watch(findings)
@@ -94,7 +96,7 @@ class Judge:
         self._keys = keys_of(protocol)
         self._load, self._periods = LoadMeter(), PeriodMeter(protocol)
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
-        self._homes = Homes()
+        self._channels = Channels()
         self._begin: float | None = None
         self._end = 0.0
         self._orders = 0
@@ -135,7 +137,7 @@ class Judge:
             seconds=self._end,
             frames=dict(self._counts),
             nodes=self.nodes,
-            seen=tuple(node for node in self._protocol.nodes if node in seen),
+            seen=tuple(node for node in nodes_of(self._protocol) if node in seen),
             results=tuple(_result(rule, findings) for rule, findings in self._findings),
             periods=self._periods.finish(presences.messages),
             load=self._load.finish(self._end, self._traffic),
@@ -170,7 +172,7 @@ class Judge:
             timing=timing,
             nodes=self._steps.presences.nodes,
             left_over=left_over(chunk, self._keys),
-            cycles=cache(lambda: self._readings.cycles(chunk.block, self._homes.channels)),
+            cycles=cache(lambda: self._readings.cycles(chunk.block, self._channels.first)),
         )
 
     def _series(
@@ -184,11 +186,11 @@ class Judge:
     def _own(self, message: type[Message], columns: MessageColumns) -> MessageColumns:
         """The frames that are what the standard says of them, on the channel of the first."""
         block, rows = columns.block, columns.rows
-        good = is_judged(message, block, rows)
-        if message.NAME not in self._homes.channels:
-            self._homes.find(message, block, rows[good])
+        good = has_format(message, block, rows) & has_length(message, block, rows)
+        if message.NAME not in self._channels.first:
+            self._channels.note(message, block, rows[good])
         if len(block.channels) > 1:
-            good &= self._homes.at_home(message, block, rows)
+            good &= self._channels.are_first(message, block, rows)
         return columns if good.all() else rows_where(columns, good)
 
 
@@ -203,14 +205,14 @@ class _Readings:
         self._columns = CellColumns(protocol.readings)
 
     def cycles(
-        self, block: FrameBlock, homes: Mapping[str, int | str | None]
+        self, block: FrameBlock, channels: Mapping[str, int | str | None]
     ) -> Sequence[CycleTable]:
         """The cycles that are complete with a block, those of each message's own channel."""
         tables = self._columns.add(self._decoder.decode(block).messages)
         return [
             table
             for table in tables
-            if table.channel == homes.get(table.readings.message, table.channel)
+            if table.channel == channels.get(table.readings.message, table.channel)
         ]
 
 
@@ -235,13 +237,15 @@ def _result(rule: Rule, findings: Findings) -> RuleResult:
 
 
 def _check(
-    protocol: Protocol, nodes: Sequence[str], limits: Mapping[str, float], rules: Sequence[Rule]
+    every: Sequence[str], nodes: Sequence[str], limits: Mapping[str, float], rules: Sequence[Rule]
 ) -> None:
+    if not every:
+        raise JudgeError("there is nobody to judge: the protocol has no nodes and no messages")
     if not nodes:
-        raise JudgeError(f"judge whom? nodes are {', '.join(protocol.nodes)}")
+        raise JudgeError(f"judge whom? nodes are {', '.join(every)}")
     for node in nodes:
-        if node not in protocol.nodes:
-            raise JudgeError(f"there is no node {node!r}; known: {', '.join(protocol.nodes)}")
+        if node not in every:
+            raise JudgeError(f"there is no node {node!r}; known: {', '.join(every)}")
     known = {tolerance.name for rule in rules for tolerance in rule.tolerances}
     for name in limits:
         if name not in known:

@@ -28,6 +28,16 @@ def periods_of(protocol: Protocol) -> dict[type[Message], float]:
     }
 
 
+def nodes_of(protocol: Protocol) -> tuple[str, ...]:
+    """The nodes of a protocol, and what else is named as the sender of a message, maybe empty."""
+    return tuple(dict.fromkeys((*protocol.nodes, *(each.SENDER for each in protocol.messages))))
+
+
+def sent_by(protocol: Protocol, sender: str) -> tuple[type[Message], ...]:
+    """The messages with that sender."""
+    return tuple(message for message in protocol.messages if sender == message.SENDER)
+
+
 class Silence(NamedTuple):
     """Nothing of a node from one frame to the next, or to the log's end.
 
@@ -91,7 +101,7 @@ class Presences:
         self.nodes: dict[str, Presence] = {}
         self.messages: dict[type[Message], Presence] = {}
         self._protocol = protocol
-        self._numbers = {node: number for number, node in enumerate(protocol.nodes, 1)}
+        self._numbers = {node: number for number, node in enumerate(nodes_of(protocol), 1)}
         self._periods = periods_of(protocol)
 
     def take(self, chunk: DecodedChunk) -> tuple[list[Silence], list[Start]]:

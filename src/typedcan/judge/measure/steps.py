@@ -15,12 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.judge.decoded import DecodedChunk
-from typedcan.judge.measure.asked import Asked
+from typedcan.judge.measure.asked import Asked, requests_of
 from typedcan.judge.measure.presence import Presences, Silence, Start
 from typedcan.judge.measure.spread import Spread, spread_of
 from typedcan.judge.series import Series
+from typedcan.logs.grouped import KEY_BITS
 from typedcan.wire.message import Message
-from typedcan.wire.protocol import Protocol
+from typedcan.wire.protocol import FieldRef, Protocol
 
 _REQUEST_ENDS = 3.0
 """Periods after which a message that is sent on request is taken to be requested anew."""
@@ -32,7 +33,12 @@ def keyed(protocol: Protocol) -> dict[type[Message], tuple[str, str]]:
         transfer.messages[0]: (transfer.group.field, transfer.frame_number.field)
         for transfer in protocol.transfers
         if transfer.group and transfer.frame_number
+        if all(_is_byte(ref) for ref in (transfer.group, transfer.frame_number))
     }
+
+
+def _is_byte(ref: FieldRef) -> bool:
+    return ref.message.FIELDS[ref.field].length <= KEY_BITS
 
 
 class Steps:
@@ -146,6 +152,7 @@ class StepMeter:
         self.presences = Presences(protocol)
         self._protocol = protocol
         self._asked = Asked(protocol)
+        self._requested = frozenset(requests_of(protocol))
         self._keyed = keyed(protocol)
         self._tables: dict[type[Message], _Table] = {}
 
@@ -159,7 +166,7 @@ class StepMeter:
             if message.PERIOD and series.fresh:
                 own = [each for each in (*known, *silences) if each.node == message.SENDER]
                 steps[message] = self._judged(self._steps(series, chunk), message.PERIOD, own)
-            elif message in self._protocol.conditional:
+            elif message in self._requested and message.PERIOD:
                 self._asked.changes(chunk, message)
         return Timing(steps, tuple(silences), tuple(starts))
 
@@ -179,7 +186,7 @@ class StepMeter:
             return self._tables[message].take(series)
         order = series.order
         steps = Steps(message, series.time[1:], np.diff(series.time), None, lambda at: order[at])
-        if message in self._protocol.conditional:
+        if message in self._requested:
             changes = self._asked.changes(chunk, message)
             steps = steps.only(np.diff(np.searchsorted(changes, order)) == 0)
         return steps

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.findings import Occurrence
 from typedcan.judge.judgement import Judgement
-from typedcan.judge.measure.homes import Homes, is_judged
+from typedcan.judge.measure.channels import Channels, has_format, has_length
 from typedcan.judge.report.facts import failed, other_worst
 from typedcan.judge.report.sources import Source, sources_of
 from typedcan.judge.report.thinned import Points
@@ -195,12 +195,12 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
         wanted=_wanted(sources),
     )
     messages = {source.message.NAME: source.message for source in sources}
-    homes = Homes()
+    channels = Channels()
     spans = _merged((each.begin, each.end) for each in opened)
     with open_log(path) as log:
         for block in log:
             time = block.timestamp - judgement.begin
-            _look(homes, messages.values(), block, time >= 0)
+            _look(channels, messages.values(), block, time >= 0)
             shown = np.zeros(len(block), np.bool_)
             for begin, end in spans:
                 shown |= (time >= begin) & (time <= end)
@@ -208,8 +208,9 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
                 part = rows_of(block, np.flatnonzero(shown))
                 for columns in decoder.decode(part).messages.values():
                     message = messages[columns.name]
-                    kept = is_judged(message, part, columns.rows)
-                    own = rows_where(columns, kept & homes.at_home(message, part, columns.rows))
+                    kept = _judged(message, part, columns.rows)
+                    kept &= channels.are_first(message, part, columns.rows)
+                    own = rows_where(columns, kept)
                     for each in opened:
                         each.take(own, own.timestamp - judgement.begin)
             elif (time > spans[-1][1]).all():
@@ -217,17 +218,23 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
 
 
 def _look(
-    homes: Homes,
+    channels: Channels,
     messages: Iterable[type[Message]],
     block: FrameBlock,
     counts: NDArray[np.bool_],
 ) -> None:
     """Look for the channels that are not known yet; only frames that count were judged."""
     for message in messages:
-        if message.NAME not in homes.channels:
+        if message.NAME not in channels.first:
             named = counts & (block.frame_id == message.FRAME_ID)
-            rows = np.flatnonzero(named & is_judged(message, block, slice(None)))
-            homes.find(message, block, rows)
+            rows = np.flatnonzero(named & _judged(message, block, slice(None)))
+            channels.note(message, block, rows)
+
+
+def _judged(
+    message: type[Message], block: FrameBlock, rows: NDArray[np.int64] | slice
+) -> NDArray[np.bool_]:
+    return has_format(message, block, rows) & has_length(message, block, rows)
 
 
 def _wanted(sources: Iterable[Source]) -> dict[str, list[str]]:

@@ -22,11 +22,17 @@ def rules(protocol: Protocol) -> tuple[Rule, ...]:
     return (
         frame_kind.rule(protocol),
         frame_length.rule(protocol),
-        identifier_priority.rule(protocol),
-        source_address.rule(protocol),
+        *_rules_of_addresses(protocol),
         reserved_bits.rule(protocol),
         unassigned_bits.rule(protocol),
         foreign_frames.rule(protocol),
         error_frames.rule(protocol),
         message_one_channel.rule(protocol),
     )
+
+
+def _rules_of_addresses(protocol: Protocol) -> tuple[Rule, ...]:
+    """Where the nodes have source addresses, identifiers are read as J1939 divides them."""
+    if all(node.address is None for node in protocol.model.nodes):
+        return ()
+    return identifier_priority.rule(protocol), source_address.rule(protocol)

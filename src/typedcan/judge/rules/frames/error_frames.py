@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.report.language import Text
 from typedcan.wire.protocol import Protocol
@@ -65,6 +66,6 @@ def rule(protocol: Protocol) -> Rule:
             "错误帧说明线路不良、波特率不一致,或有两个节点发送同一标识符。",
         ),
         severity=Severity.INFO,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=ErrorFrames,
     )

@@ -7,6 +7,7 @@ from functools import partial
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.left_over import EXTENDED
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.identifiers import Identifiers, written
 from typedcan.judge.rules.frames.sightings import Sightings
@@ -73,6 +74,6 @@ def rule(protocol: Protocol) -> Rule:
             "这些报文不一定有错,但会占用总线带宽,也可能是标识符有误的协议报文。",
         ),
         severity=Severity.INFO,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(ForeignFrames, protocol=protocol),
     )

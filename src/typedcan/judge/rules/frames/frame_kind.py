@@ -1,13 +1,13 @@
-"""Identifiers of the protocol come as classical data frames."""
+"""Frames have the format of their message: classic CAN or CAN FD, and data."""
 
 from __future__ import annotations
 
 from functools import partial
 
-import numpy as np
-
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said
+from typedcan.judge.measure.channels import has_format
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.odd import judge_odd
 from typedcan.logs.frames import FrameBlock, FrameFlag
@@ -15,14 +15,15 @@ from typedcan.report.language import Text
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
-_ODD = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
-
 _REMOTE = Text(
     "a remote frame; it has to be a classical data frame", "为远程帧,应为经典 CAN 数据帧"
 )
 _FD = Text(
     "a CAN FD frame; it has to be a classical data frame", "为 CAN FD 帧,应为经典 CAN 数据帧"
 )
+
+_REMOTE_FOR_FD = Text("a remote frame; it has to be a CAN FD frame", "为远程帧,应为 CAN FD 帧")
+_CLASSIC = Text("a classical frame; it has to be a CAN FD frame", "为经典 CAN 帧,应为 CAN FD 帧")
 
 
 class FrameKind(Watcher):
@@ -34,29 +35,30 @@ class FrameKind(Watcher):
 
     def take(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        flags = chunk.block.flags
         odd = {
-            message: rows[(flags[rows] & _ODD) != 0]
+            message: rows[~has_format(message, chunk.block, rows)]
             for message, rows in chunk.left_over.of_messages()
         }
         judge_odd(self.findings, chunk, self._messages, odd, _describe)
 
 
-def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:  # noqa: ARG001
-    return (_REMOTE if block.flags[row] & FrameFlag.REMOTE else _FD), {}
+def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:
+    if block.flags[row] & FrameFlag.REMOTE:
+        return (_REMOTE_FOR_FD if message.MODEL.is_fd else _REMOTE), {}
+    return (_CLASSIC if message.MODEL.is_fd else _FD), {}
 
 
 def rule(protocol: Protocol) -> Rule:
     """The rule of a protocol."""
     return Rule(
         id="frame-kind",
-        title=Text("Frames are classical data frames", "帧为经典 CAN 数据帧"),
+        title=Text("Frames have the format of their message", "帧格式与报文一致"),
         purpose=Text(
             "A remote frame carries no data, and a node without CAN FD destroys FD frames on the "
             "bus.",
             "远程帧不携带数据;不支持 CAN FD 的节点会破坏总线上的 FD 帧。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(FrameKind, protocol=protocol),
     )

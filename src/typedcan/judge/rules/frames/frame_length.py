@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said
+from typedcan.judge.measure.channels import has_format, has_length
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.odd import judge_odd
-from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.frames import FrameBlock
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
-
-_OTHER_KINDS = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
 
 _LENGTH = Text("{bytes} bytes instead of {right}", "数据长度为 {bytes} 字节,应为 {right} 字节")
 
@@ -33,8 +33,8 @@ class FrameLength(Watcher):
         block = chunk.block
         odd: dict[type[Message], NDArray[np.int64]] = {}
         for message, rows in chunk.left_over.of_messages():
-            wrong = block.length[rows] != message.LENGTH
-            odd[message] = rows[wrong & ((block.flags[rows] & _OTHER_KINDS) == 0)]
+            wrong = ~has_length(message, block, rows)
+            odd[message] = rows[wrong & has_format(message, block, rows)]
         judge_odd(self.findings, chunk, self._messages, odd, _describe)
 
 
@@ -52,6 +52,6 @@ def rule(protocol: Protocol) -> Rule:
             "缺少字节时,接收方无法读取信号。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(FrameLength, protocol=protocol),
     )

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.identifiers import PRIORITY_SHIFT, Identifiers
 from typedcan.judge.rules.frames.odd import judge_odd
@@ -65,6 +66,6 @@ def rule(protocol: Protocol) -> Rule:
             "接收方按完整标识符过滤:优先级不同则收不到该报文,其总线仲裁次序也与设计不符。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(IdentifierPriority, protocol=protocol),
     )

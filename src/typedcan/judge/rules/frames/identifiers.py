@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.judge.measure.left_over import EXTENDED, keys_of
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
@@ -27,12 +28,13 @@ class Identifiers:
     def __init__(self, protocol: Protocol) -> None:
         messages = keys_of(protocol)
         self._keys = np.fromiter(messages, np.uint32)
-        self._rest = self._keys & _PRIORITY_MASK
-        self._heads = self._keys >> np.uint32(ADDRESS_BITS)
+        extended = self._keys[(self._keys & np.uint32(EXTENDED)) != 0]
+        self._rest = extended & _PRIORITY_MASK
+        self._heads = extended >> np.uint32(ADDRESS_BITS)
         self._extended = tuple(each for key, each in messages.items() if key & EXTENDED)
         self._addresses = {
-            node: {message.FRAME_ID & 0xFF for message in protocol.sent_by(node)}
-            for node in protocol.nodes
+            node: {each.FRAME_ID & 0xFF for each in protocol.messages if node == each.SENDER}
+            for node in nodes_of(protocol)
         }
 
     def has_other_priority(self, keys: NDArray[np.uint32]) -> NDArray[np.bool_]:

@@ -9,14 +9,13 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
+from typedcan.judge.measure.channels import has_format, has_length
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.sightings import Sighting
-from typedcan.logs.frames import FrameFlag
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
-
-_OTHER_KINDS = np.uint8(FrameFlag.REMOTE | FrameFlag.FD)
 
 _TWICE = Text(
     "frames on {channel} that are not judged: {frames}; those on {home} are",
@@ -30,7 +29,7 @@ class MessageOneChannel(Watcher):
     def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
         self._messages = protocol.messages
-        self._homes: dict[type[Message], str] = {}
+        self._first: dict[type[Message], str] = {}
         self._others: dict[tuple[type[Message], str], Sighting] = {}
 
     def take(self, chunk: Chunk) -> None:
@@ -41,19 +40,18 @@ class MessageOneChannel(Watcher):
             if not own.fresh:
                 continue
             self.findings.examine(message.SENDER, own.fresh)
-            if message not in self._homes:
+            if message not in self._first:
                 row = own.order[own.first] - chunk.first_order
-                self._homes[message] = str(block.channels[block.channel[row]])
+                self._first[message] = str(block.channels[block.channel[row]])
         for message, rows in chunk.left_over.of_messages():
-            sound = (block.flags[rows] & _OTHER_KINDS) == 0
-            sound &= block.length[rows] == message.LENGTH
-            if sound.any():
+            sound = has_format(message, block, rows) & has_length(message, block, rows)
+            if message in self._first and sound.any():
                 self._count(chunk, message, rows[sound])
 
     def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say which channels there were."""
         for (message, channel), each in self._others.items():
-            home = self._homes[message]
+            home = self._first[message]
             found = Occurrence(
                 subject=Subject(message.SENDER, message.NAME, detail=channel),
                 start=each.start,
@@ -90,6 +88,6 @@ def rule(protocol: Protocol) -> Rule:
             "报文出现在日志的多个通道上时(例如经网关转发),只判定最先出现的通道。",
         ),
         severity=Severity.INFO,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(MessageOneChannel, protocol=protocol),
     )

@@ -6,6 +6,7 @@ from functools import partial
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.bits import judge_zeros, mask_of
 from typedcan.report.language import Text
@@ -47,6 +48,6 @@ def rule(protocol: Protocol) -> Rule:
             "后续版本可能定义预留位的含义,届时会按现在发送的内容解释。",
         ),
         severity=Severity.MUST,
-        judges=tuple(node for node in protocol.nodes if node in senders),
+        judges=tuple(node for node in nodes_of(protocol) if node in senders),
         watch=partial(ReservedBits, protocol=protocol),
     )

@@ -8,6 +8,7 @@ from functools import partial
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.left_over import EXTENDED
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.identifiers import Identifiers, written
 from typedcan.judge.rules.frames.sightings import Sighting, Sightings
@@ -85,6 +86,6 @@ def rule(protocol: Protocol) -> Rule:
             "否则视为其他节点的报文。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(SourceAddress, protocol=protocol),
     )

@@ -6,6 +6,7 @@ from functools import partial
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.bits import judge_zeros, mask_of
 from typedcan.report.language import Text
@@ -44,6 +45,6 @@ def rule(protocol: Protocol) -> Rule:
             "协议未规定这些位;其他处均填充 0,后续版本也会以此为前提。",
         ),
         severity=Severity.INFO,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         watch=partial(UnassignedBits, protocol=protocol),
     )

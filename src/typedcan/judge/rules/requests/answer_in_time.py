@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
+from typedcan.judge.measure.presence import sent_by
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.requests.spells import Spell, Spells, first_after
 from typedcan.judge.tolerance import Tolerance
@@ -43,7 +45,8 @@ class AnswerInTime(Watcher):
         super().__init__(findings)
         limit = findings.limit(_SECONDS)
         self._waits = [
-            _Wait(Spells(request), protocol, findings, limit) for request in protocol.requests
+            _Wait(Spells(request), sent_by(protocol, _asked(request)), findings, limit)
+            for request in protocol.requests
         ]
 
     def take(self, chunk: Chunk) -> None:
@@ -56,11 +59,12 @@ class AnswerInTime(Watcher):
 class _Wait:
     """What is waited for, for one kind of request.
 
-    ``seen`` says whether the node that is asked sent anything since the request began.
+    ``own`` are the messages of the node that is asked; ``seen`` says whether it sent anything
+    since the request began.
     """
 
     spells: Spells
-    protocol: Protocol
+    own: Sequence[type[Message]]
     findings: Findings
     limit: float
     judged: Spell | None = None
@@ -87,7 +91,7 @@ class _Wait:
             or (last is not None and spell.answers[answer].order >= last)
         ]
         if not missing:
-            self.findings.examine(request.answers[0].SENDER)
+            self.findings.examine(_asked(request))
             return True
         self.seen = self.seen or self._sent_anything(chunk, spell.begin.order, last)
         if last is None:
@@ -98,7 +102,7 @@ class _Wait:
 
     def _sent_anything(self, chunk: Chunk, after: int, before: int | None) -> bool:
         """Whether the node that is asked sent a frame of any kind, between two others."""
-        for message in self.protocol.sent_by(self.spells.request.answers[0].SENDER):
+        for message in self.own:
             series = chunk.frames(message)
             row = first_after(series.order, after)
             if row is not None and (before is None or series.order[row] < before):
@@ -107,7 +111,7 @@ class _Wait:
 
     def _blame(self, request: Request, spell: Spell, missing: list[type[Message]]) -> None:
         message, field = request.field
-        node = request.answers[0].SENDER
+        node = _asked(request)
         self.findings.examine(node)
         found = Occurrence(
             subject=Subject(node, message.NAME, message.FIELDS[field].dbc_name),
@@ -122,6 +126,11 @@ class _Wait:
             },
         )
         self.findings.add(found)
+
+
+def _asked(request: Request) -> str:
+    """The node that is to answer."""
+    return request.answers[0].SENDER
 
 
 def _first_later(chunk: Chunk, spell: Spell, time: float) -> int | None:
@@ -147,7 +156,7 @@ def rule(protocol: Protocol) -> Rule:
             "请求方需要收到全部应答报文。不在总线上的节点以及提前撤销的请求不作判定。",
         ),
         severity=Severity.MUST,
-        judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in protocol.requests)),
+        judges=tuple(dict.fromkeys(_asked(request) for request in protocol.requests)),
         tolerances=(_SECONDS,),
         watch=partial(AnswerInTime, protocol=protocol),
     )

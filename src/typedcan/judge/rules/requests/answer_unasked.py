@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
+from typedcan.judge.measure.presence import sent_by
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.requests.spells import Moment, Spell, Spells
 from typedcan.judge.series import Series
@@ -66,7 +67,7 @@ class _Asking:
 
     def __init__(self, request: Request, protocol: Protocol, findings: Findings) -> None:
         self._request = request
-        self._askers = protocol.sent_by(request.field.message.SENDER)
+        self._askers = sent_by(protocol, request.field.message.SENDER)
         self._findings = findings
         self._limit = findings.limit(_SECONDS)
         self._begin = findings.limit(_BEGIN)

@@ -26,5 +26,5 @@ def rules(protocol: Protocol) -> tuple[Rule, ...]:
         event_repeated.rule(protocol),
         message_missing.rule(protocol),
         start_complete.rule(protocol),
-        bus_load.rule(protocol),
+        *((bus_load.rule(protocol),) if protocol.model.buses else ()),
     )

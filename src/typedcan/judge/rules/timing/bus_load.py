@@ -8,6 +8,7 @@ import numpy as np
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.traffic import Channel, Traffic, bits_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.tolerance import Tolerance
@@ -39,7 +40,7 @@ class BusLoad(Watcher):
 
     def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
-        self._nodes = protocol.nodes
+        self._nodes = nodes_of(protocol)
         self._last = 0.0
         self._back = 0.0
         self._parts = 1
@@ -115,7 +116,7 @@ def rule(protocol: Protocol) -> Rule:
             "总线负载超出设计值会使低优先级报文延迟。",
         ),
         severity=Severity.SHOULD,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_SHARE,),
         watch=partial(BusLoad, protocol=protocol),
     )

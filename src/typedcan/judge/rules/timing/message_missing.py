@@ -7,7 +7,7 @@ from functools import partial
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
-from typedcan.judge.measure.presence import Presence, periods_of
+from typedcan.judge.measure.presence import Presence, nodes_of, periods_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -94,7 +94,7 @@ def rule(protocol: Protocol) -> Rule:
             "接收方等待标准规定的每个报文。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_PERIODS,),
         watch=partial(MessageMissing, protocol=protocol),
     )

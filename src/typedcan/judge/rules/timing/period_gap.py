@@ -6,7 +6,7 @@ from functools import partial
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
-from typedcan.judge.measure.presence import periods_of
+from typedcan.judge.measure.presence import nodes_of, periods_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.timing.step_findings import add_steps
 from typedcan.judge.tolerance import Tolerance
@@ -104,7 +104,7 @@ def rule(protocol: Protocol) -> Rule:
             "报文缺失期间,接收方只能使用旧值。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_SHARE, _EXTRA),
         watch=partial(PeriodGap, protocol=protocol),
     )

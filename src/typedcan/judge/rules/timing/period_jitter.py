@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from typedcan.judge.findings import Said
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.spread import Spread, spread_of
 from typedcan.judge.measure.steps import Steps
 from typedcan.judge.rule import Rule, Severity
@@ -72,7 +73,7 @@ def rule(protocol: Protocol) -> Rule:
             "通过总线闭环的控制需要间隔均匀的最新数据。",
         ),
         severity=Severity.SHOULD,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_SHARE, _LEAST),
         watch=partial(PeriodJitter, protocol=protocol),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from typedcan.judge.findings import Said
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.spread import Spread
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.rules.timing.whole_log import WholeLog
@@ -58,7 +59,7 @@ def rule(protocol: Protocol) -> Rule:
             "接收方按规定的周期判断报文超时并进行积分计算。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_SHARE, _LEAST),
         watch=partial(PeriodMean, protocol=protocol),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typedcan.judge.chunk import Chunk
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.timing.step_findings import add_steps
 from typedcan.judge.tolerance import Tolerance
@@ -48,7 +49,7 @@ def rule(protocol: Protocol) -> Rule:
             "突发报文会占用总线,接收方可能只处理最后一帧。",
         ),
         severity=Severity.SHOULD,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_SHARE,),
         watch=PeriodShort,
     )

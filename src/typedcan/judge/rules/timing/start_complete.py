@@ -7,7 +7,7 @@ from functools import partial
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
-from typedcan.judge.measure.presence import Start, periods_of
+from typedcan.judge.measure.presence import Start, nodes_of, periods_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import Tolerance
@@ -128,7 +128,7 @@ def rule(protocol: Protocol) -> Rule:
             "其他节点收齐其全部报文后才能正常工作。",
         ),
         severity=Severity.MUST,
-        judges=protocol.nodes,
+        judges=nodes_of(protocol),
         tolerances=(_QUIET, _PERIODS, _EXTRA),
         watch=partial(StartComplete, protocol=protocol),
     )

@@ -1,0 +1,51 @@
+"""Which frames of a message are judged: those of its format, on the channel where it came first."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.wire.message import Message
+
+_FORMAT = np.uint8(FrameFlag.EXTENDED | FrameFlag.FD | FrameFlag.REMOTE | FrameFlag.ERROR)
+
+Rows = NDArray[np.int64] | slice
+
+
+class Channels:
+    """The channels of messages while a log is read; ``first`` has those known so far by name."""
+
+    def __init__(self) -> None:
+        self.first: dict[str, int | str | None] = {}
+
+    def note(self, message: type[Message], block: FrameBlock, rows: NDArray[np.int64]) -> None:
+        """Take these frames of a message, where there are some, for the first ones."""
+        if len(rows):
+            self.first.setdefault(message.NAME, block.channels[block.channel[rows[0]]])
+
+    def are_first(
+        self, message: type[Message], block: FrameBlock, rows: NDArray[np.int64]
+    ) -> NDArray[np.bool_]:
+        """Which of these frames are on the channel where their message came first."""
+        first = self.first.get(message.NAME)
+        there = np.array([channel == first for channel in block.channels])
+        own: NDArray[np.bool_] = there[block.channel[rows]]
+        return own
+
+
+def has_format(message: type[Message], block: FrameBlock, rows: Rows) -> NDArray[np.bool_]:
+    """Which of these frames have the identifier's width of a message and are CAN FD as it is."""
+    flags = FrameFlag.EXTENDED if message.EXTENDED else FrameFlag(0)
+    if message.MODEL.is_fd:
+        flags |= FrameFlag.FD
+    good: NDArray[np.bool_] = (block.flags[rows] & _FORMAT) == np.uint8(flags)
+    return good
+
+
+def has_length(message: type[Message], block: FrameBlock, rows: Rows) -> NDArray[np.bool_]:
+    """Which of these frames have the bytes of a message; CAN FD fills them up where it has to."""
+    good: NDArray[np.bool_] = block.length[rows] == message.LENGTH
+    if message.MODEL.frame_length != message.LENGTH:
+        good |= block.length[rows] == message.MODEL.frame_length
+    return good
