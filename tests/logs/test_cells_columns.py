@@ -19,7 +19,7 @@ from logs.cell_logs import (
 )
 
 from swapcan.log_protocol import CELLS, OWN
-from typedcan.logs.cells import CellColumns, CellsError
+from typedcan.logs.cells import CellColumns, TransferError
 from typedcan.logs.columns import State
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.plan import Mode
@@ -196,11 +196,11 @@ def test_it_makes_no_difference_where_blocks_end(border: int) -> None:
 
 
 def test_raw_values_and_missing_signals_are_refused() -> None:
-    with pytest.raises(CellsError, match="physical values"):
+    with pytest.raises(TransferError, match="physical values"):
         cells().add(decoded([TOLD, *cycles(1)], Mode.RAW).messages)
     block = decoded([TOLD, *cycles(1)])
     del block.messages["B2V_Ucell"].columns["B2V_UC_CSCNo"]
-    with pytest.raises(CellsError, match="B2V_UC_CSCNo"):
+    with pytest.raises(TransferError, match="B2V_UC_CSCNo"):
         cells().add(block.messages)
 
 

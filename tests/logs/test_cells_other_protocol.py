@@ -10,7 +10,7 @@ import pyarrow as pa
 import pytest
 from logs.decode_databases import Frame, block_of
 
-from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.decode import Decoder
 from typedcan.logs.protocol import known
 from typedcan.model.protocol import Message, Protocol, Signal
@@ -70,13 +70,13 @@ FRAMES = [
 ]
 
 
-def rows(**facts: Any) -> dict[str, list[dict[str, Any]]]:
+def rows(frames: list[Frame] = FRAMES, **facts: Any) -> dict[str, list[dict[str, Any]]]:
     """The rows of all tables, by their names."""
     protocol = known(replace(RACK, transfers=(replace(SHELF_LOADS, **facts),)))
-    block = block_of(FRAMES)
+    block = block_of(frames)
     block.timestamp[:] = [0.0, 0.01, 0.02]
     block.channel[:] = 0
-    shape = CellTables(protocol)
+    shape = TransferTables(protocol)
     decoded = Decoder(protocol.messages, reserved=protocol.reserved).decode(block)
     batches = [*shape.take(decoded), *shape.finish()]
     return {name: pa.Table.from_batches([batch]).to_pylist() for name, batch in batches}
@@ -107,10 +107,38 @@ def test_tables_and_columns_have_the_names_that_are_given() -> None:
     [
         {"group": ""},
         {"groups_signal": ""},
-        {"numbering": Numbering.THROUGH},
-        {"count_signal": "", "count": 4},
+        {"count_signal": ""},
+        {"items": ("Left", "Gone")},
+        {"items": ("Left", "Shelves")},
+        {"kind": "numbered_blocks"},
     ],
 )
-def test_a_transfer_without_groups_or_totals_makes_no_table(lacking: dict[str, Any]) -> None:
+def test_a_transfer_that_does_not_fit_its_kind_makes_no_table(lacking: dict[str, Any]) -> None:
     protocol = replace(RACK, transfers=(replace(SHELF_LOADS, **lacking),))
     assert known(protocol).readings == ()
+
+
+@pytest.mark.parametrize(
+    "fixed",
+    [
+        {"groups_signal": "", "groups": 2},
+        {"count_signal": "", "count": 4},
+        {"groups_signal": "", "count_signal": "", "groups": 2, "count": 4},
+        {"groups_signal": "", "count_signal": "", "counts": (2, 2)},
+    ],
+)
+def test_what_the_protocol_fixes_need_not_be_told(fixed: dict[str, Any]) -> None:
+    [(name, [row])] = rows(**fixed).items()
+    assert name == "shelf_loads_2x2"
+    assert row["shelf_loads_2_2"] == 20.0
+
+
+def test_frames_that_are_numbered_through_all_groups_are_put_in_their_place() -> None:
+    numbered = [
+        Frame(0x121, bytes([2, 4])),
+        Frame(0x120, bytes([1, 1, 10, 20])),
+        Frame(0x120, bytes([2, 2, 30, 40])),
+    ]
+    [(name, [row])] = rows(numbered, numbering=Numbering.THROUGH).items()
+    assert name == "shelf_loads_2x2"
+    assert row["shelf_loads_2_1"] == 15.0

@@ -10,7 +10,7 @@ from logs.cell_logs import INVALID, Reading, Sent, cycle, decoded, totals
 
 import swapcan
 from swapcan.log_protocol import OWN
-from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.pipeline import Options
 
 TOLD = Sent(0.0, totals(2, 4))
@@ -20,7 +20,7 @@ LOG = [TOLD, *cycle(0.0, WHOLE), *cycle(0.1, LACKING)]
 
 
 def test_what_is_invalid_is_null_and_its_state_says_so() -> None:
-    shape = CellTables(OWN)
+    shape = TransferTables(OWN)
     batches = [*shape.take(decoded(LOG)), *shape.finish()]
     table = pa.Table.from_batches([batch for name, batch in batches if name == "cells_2x2"])
     columns = table.to_pydict()
@@ -33,7 +33,7 @@ def test_what_is_invalid_is_null_and_its_state_says_so() -> None:
 
 
 def test_columns_carry_unit_and_place() -> None:
-    shape = CellTables(OWN)
+    shape = TransferTables(OWN)
     list(shape.take(decoded(LOG)))
     schema = shape.schemas["cells_2x2"]
     assert schema.field("cell_2_1").metadata == {
@@ -58,7 +58,7 @@ def test_a_conversion_has_them_beside_the_messages(tmp_path: Path) -> None:
                     data=swapcan.encode(sent.message),
                 )
             )
-    found = tables(path, options=Options(derived=(CellTables,)))
+    found = tables(path, options=Options(derived=(TransferTables,)))
     assert found["B2V_Ucell"].num_rows == 4
     cells = found["cells_2x2"].to_pydict()
     assert [round(value, 3) for value in cells["cell_2_2"]] == [3.4, 3.4]

@@ -1,6 +1,6 @@
 from swapcan.log_tables import convert_logs, decode_batch, schemas, tables
 from typedcan.logs.batch import FRAME_SCHEMA, BatchError, DamagedLogError, frame_batches
-from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress
@@ -14,7 +14,6 @@ from typedcan.logs.write.target import Target
 __all__ = [
     "FRAME_SCHEMA",
     "BatchError",
-    "CellTables",
     "Damage",
     "DamagedLogError",
     "Layout",
@@ -26,6 +25,7 @@ __all__ = [
     "Shape",
     "Summary",
     "Target",
+    "TransferTables",
     "convert_logs",
     "decode_batch",
     "frame_batches",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool, dbc_of
-from typedcan.logs.cells.arrow import CellTables
+from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.convert import convert_logs
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
@@ -74,5 +74,5 @@ def _options(given: argparse.Namespace) -> Options:
     selected = dbc_of(given) or given.messages or given.signals
     if not selected and options.mode is Mode.PHYSICAL and options.layout is Layout.MESSAGES:
         # All there is of the own protocol: readings over several frames as columns too.
-        return replace(options, derived=(CellTables,))
+        return replace(options, derived=(TransferTables,))
     return options

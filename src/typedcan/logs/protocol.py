@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from typedcan.logs.columns import State
-from typedcan.logs.grouped import Readings, readings_of
+from typedcan.logs.grouped import Readings, readings_of, values_of
 from typedcan.logs.plan import Reserved
 from typedcan.model import protocol as model
 from typedcan.model.layout import in_bit_order
+from typedcan.model.transfers.parts import Parts
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +35,8 @@ class Protocol:
         The messages whose length, checksum and alive counter are known, by name.
     readings
         What comes in groups over several frames, and becomes columns of its own.
+    values
+        Texts and blocks that come over several frames, and become rows of their own.
     """
 
     name: str
@@ -45,6 +48,7 @@ class Protocol:
     conditional: frozenset[str]
     checked: Mapping[str, model.Message]
     readings: tuple[Readings, ...]
+    values: tuple[Parts, ...]
 
     @property
     def hidden(self) -> dict[str, str]:
@@ -70,6 +74,7 @@ def known(protocol: model.Protocol) -> Protocol:
         ),
         checked={message.name: message for message in protocol.messages},
         readings=readings_of(protocol),
+        values=values_of(protocol),
     )
 
 
@@ -85,6 +90,7 @@ def read(protocol: model.Protocol, name: str) -> Protocol:
         conditional=frozenset(),
         checked={},
         readings=(),
+        values=(),
     )
 
 

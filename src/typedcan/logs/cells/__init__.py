@@ -13,7 +13,7 @@ each CSC the cells up to the last that had a value. With ``assume_seen=False`` n
 
 from typedcan.logs.cells.assembly import CycleCounts
 from typedcan.logs.cells.cycles import CellColumns, CycleTable
-from typedcan.logs.cells.readings import CellsError
+from typedcan.logs.cells.readings import TransferError
 from typedcan.logs.grouped import Readings
 
-__all__ = ["CellColumns", "CellsError", "CycleCounts", "CycleTable", "Readings"]
+__all__ = ["CellColumns", "CycleCounts", "CycleTable", "Readings", "TransferError"]

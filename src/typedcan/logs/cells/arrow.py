@@ -1,4 +1,4 @@
-"""Cells and probes as Arrow tables, for conversions: `CellTables` among ``Options.derived``."""
+"""What transfers carry as Arrow tables, for conversions: `TransferTables` among ``derived``."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typedcan.logs.arrow import (
     STATE_TYPE,
     STATES,
     TIMESTAMP,
+    MessageTable,
     channel_array,
     float_array,
     from_numpy,
@@ -20,18 +21,31 @@ from typedcan.logs.arrow import (
 )
 from typedcan.logs.cells.assembly import CycleCounts
 from typedcan.logs.cells.cycles import CellColumns, CycleTable
+from typedcan.logs.cells.values import Complete, ValueColumns
 from typedcan.logs.columns import DecodedBlock, State
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.shapes import Batch, Shape
+from typedcan.model.transfers.kind import MOST_ITEMS, Problem
+from typedcan.model.transfers.parts import Parts, field_of
+from typedcan.model.transfers.registry import KINDS
 
 _STATE_ARRAY = pa.array(STATES)
 
+_WIDTHS: Mapping[type, int] = {str: 4, bytes: 2, list: 26}
+"""Bytes that an item takes at most where a format has nothing but texts."""
 
-class CellTables(Shape):
-    """A row per complete cycle, and for each cell or probe a column and one for its states.
+_TYPES: Mapping[type, pa.DataType] = {
+    str: pa.string(),
+    bytes: pa.binary(),
+    list: pa.list_(pa.float64()),
+}
 
-    The names of the tables say how many there are, such as ``cells_18x12``; a log has one of them
-    unless its packs differ.
+
+class TransferTables(Shape):
+    """What takes several frames: a row per complete cycle of readings, text, or set of blocks.
+
+    Readings have for each a column and one for its states. The names of their tables say how many
+    there are, such as ``cells_18x12``; a log has one of them unless its packs differ.
 
     Parameters
     ----------
@@ -44,26 +58,41 @@ class CellTables(Shape):
     def __init__(self, protocol: Protocol, *, assume_seen: bool = True) -> None:
         self._protocol = protocol
         self._columns = CellColumns(protocol.readings, assume_seen=assume_seen)
+        self._values = ValueColumns(protocol.values)
+        self._tables = {each.transfer.name: ValueTable(protocol, each) for each in protocol.values}
         self._schemas: dict[str, pa.Schema] = {}
 
     @property
     def schemas(self) -> Mapping[str, pa.Schema]:
-        """What all tables begin with, and in full those that occurred."""
+        """What all tables begin with, and in full those that are known or occurred."""
         begin = pa.schema([TIMESTAMP, CHANNEL])
-        return {**{each.name: begin for each in self._protocol.readings}, **self._schemas}
+        known = {table.name: table.schema for table in self._tables.values()}
+        return {**{each.name: begin for each in self._protocol.readings}, **known, **self._schemas}
 
     @property
     def counts(self) -> dict[str, CycleCounts]:
-        """What became of the frames, by ``cells`` and ``probes``."""
+        """What became of the frames of readings, by the names of their tables."""
         return self._columns.counts
 
+    @property
+    def problems(self) -> list[Problem]:
+        """What was wrong with texts and blocks."""
+        return self._values.problems
+
     def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
-        """The cycles that are complete with the block; raises `CellsError`."""
+        """What is complete with the block; raises `TransferError`."""
         yield from self._batches(self._columns.add(decoded.messages))
+        found: dict[str, list[Complete]] = {}
+        for each in self._values.add(decoded.messages):
+            found.setdefault(each.parts.transfer.name, []).append(each)
+        for name, complete in found.items():
+            table = self._tables[name]
+            yield table.name, table.batch(complete)
 
     def finish(self) -> Iterator[Batch]:
         """The cycles that waited until the end."""
         yield from self._batches(self._columns.finish())
+        self._values.finish()
 
     def _batches(self, tables: Iterable[CycleTable]) -> Iterator[Batch]:
         for table in tables:
@@ -72,12 +101,72 @@ class CellTables(Shape):
             yield table.name, cycle_batch(table, self._schemas[table.name])
 
 
+class ValueTable:
+    """The table of a transfer whose values are texts or data: a row per value.
+
+    Beside time and channel it has the columns of its kind, and one for each detail.
+    """
+
+    def __init__(self, protocol: Protocol, parts: Parts) -> None:
+        taken = {message.name.casefold() for message in protocol.messages}
+        self.name = parts.table
+        if self.name.casefold() in taken:  # a table of that message, or a file beside it
+            self.name += "_complete"
+        self._parts = parts
+        self._kind = KINDS[parts.transfer.kind]
+        columns = self._kind.columns(parts)
+        self._columns = [
+            pa.field(name, _TYPES[kind], metadata={"bytes": str(_WIDTHS[kind] * _most(parts))})
+            for name, kind in columns.items()
+        ]
+        self._details: list[tuple[str, pa.Field[Any]]] = []
+        names = ["timestamp", "channel", *columns]
+        for part in parts.details:
+            table = MessageTable(protocol, part.message, signals=(part.signal.name,))
+            name = part.signal.name
+            while name in names:
+                name += "_"
+            names.append(name)
+            [info] = table.signals
+            self._details.append((field_of(part), table.fields(info, name)[0]))
+        fields = [TIMESTAMP, CHANNEL, *self._columns, *(each for _, each in self._details)]
+        own = {"message": ", ".join(message.name for message in parts.messages)}
+        self.schema = pa.schema(fields, metadata_of(protocol, own))
+
+    def batch(self, found: list[Complete]) -> pa.RecordBatch:
+        """A row per value."""
+        channels = tuple(dict.fromkeys(each.channel for each in found))
+        places = np.array([channels.index(each.channel) for each in found], np.int16)
+        times = np.array([each.value.at for each in found], np.float64)
+        cells = zip(*(self._kind.cells(self._parts, each.value) for each in found), strict=True)
+        columns = zip(cells, self._columns, strict=True)
+        arrays: list[pa.Array[Any]] = [
+            float_array(times),
+            channel_array(places, channels),
+            *(pa.array(list(held), field.type) for held, field in columns),
+            *(self._detail(found, name, field) for name, field in self._details),
+        ]
+        return pa.RecordBatch.from_arrays(arrays, schema=self.schema)
+
+    @staticmethod
+    def _detail(found: list[Complete], name: str, field: pa.Field[Any]) -> pa.Array[Any]:
+        held = [each.value.details.get(name) for each in found]
+        numbers = [each if isinstance(each, int | float) else None for each in held]
+        array: pa.Array[Any] = pa.array(numbers, field.type)
+        return array
+
+
+def _most(parts: Parts) -> int:
+    """The most items that a value has."""
+    return min(parts.capacity, parts.transfer.count or MOST_ITEMS, MOST_ITEMS)
+
+
 def cycle_schema(protocol: Protocol, table: CycleTable) -> pa.Schema:
     """Time, channel, and for each reading its value, null where there is none, and its state."""
     message = {"message": table.readings.message}
     fields: list[pa.Field[Any]] = [TIMESTAMP, CHANNEL]
-    for column, (csc, number) in zip(table.columns, table.positions, strict=True):
-        place = {**message, "csc": str(csc), "number": str(number)}
+    for column, (group, number) in zip(table.columns, table.positions, strict=True):
+        place = {**message, table.readings.word: str(group), "number": str(number)}
         value = {**place, "unit": table.readings.unit}
         fields.append(pa.field(column, pa.float64(), metadata=value))
         fields.append(pa.field(f"{column}.state", STATE_TYPE, metadata=place))

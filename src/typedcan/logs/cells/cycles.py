@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.cells.assembly import CycleCounts
-from typedcan.logs.cells.readings import CellsError, frames_of
+from typedcan.logs.cells.readings import TransferError, frames_of
 from typedcan.logs.cells.stream import Cycles, Layout, Stream
-from typedcan.logs.columns import MessageColumns
+from typedcan.logs.columns import Column, MessageColumns
 from typedcan.logs.grouped import Readings
-from typedcan.model.transfers.shape import Totals
 
 Channel = int | str | None
+
+Told = tuple[int | None, ...]
+"""How many groups and readings there are, as far as it is told; None where it is no number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,14 +29,14 @@ class CycleTable:
     Parameters
     ----------
     name
-        Of the table, by its layout: ``cells_18x12`` has 18 CSCs of 12 cells, ``cells_2x12_1x8``
+        Of the table, by its layout: ``cells_18x12`` has 18 groups of 12 cells, ``cells_2x12_1x8``
         two of 12 and one of 8, in this order.
     readings
         What is measured.
     channel
         As python-can gives it.
     positions
-        CSC and number of each column, both from 1, ascending.
+        Group and number of each column, ascending.
     timestamp
         Seconds, of the last frame of each cycle.
     values
@@ -76,7 +78,7 @@ class CellColumns:
         self._readings = tuple(readings)
         self._assume_seen = assume_seen
         self._streams: dict[tuple[str, Channel], Stream] = {}
-        self._totals: dict[tuple[str, Channel], Totals] = {}
+        self._told: dict[tuple[str, Channel], Told] = {}
         self._end = -math.inf
 
     def add(self, messages: Mapping[str, MessageColumns]) -> list[CycleTable]:
@@ -89,13 +91,13 @@ class CellColumns:
 
         Raises
         ------
-        CellsError
+        TransferError
             A signal was not decoded, or to raw values.
         """
         tables: list[CycleTable] = []
         for readings in self._readings:
             own, totals = messages.get(readings.message), messages.get(readings.totals)
-            for channel in _channels(own, totals):
+            for channel in channels_of(own, totals):
                 stream = self._stream(readings, channel)
                 changes = self._changes(readings, channel, totals)
                 cycles = self._take(stream, readings, channel, own, changes)
@@ -124,31 +126,28 @@ class CellColumns:
     def _stream(self, readings: Readings, channel: Channel) -> Stream:
         key = readings.name, channel
         if key not in self._streams:
-            self._streams[key] = Stream(
-                len(readings.items), readings.period, assume_seen=self._assume_seen
-            )
+            self._streams[key] = Stream(readings, assume_seen=self._assume_seen)
         return self._streams[key]
 
     def _changes(
         self, readings: Readings, channel: Channel, columns: MessageColumns | None
-    ) -> list[tuple[int, float, Totals]]:
-        """Where in the block the pack tells other totals, and when."""
-        if columns is None:
+    ) -> list[tuple[int, float, Told]]:
+        """Where in the block other totals are told, and when."""
+        if columns is None or not readings.told:
             return []
-        for name in (readings.groups, readings.count):
+        for name in readings.told:
             if name not in columns.columns:
-                raise CellsError(f"{readings.name} need the totals: decode {name}")
-        own = _on_channel(columns, channel)
-        groups = columns.columns[readings.groups].values[own]
-        count = columns.columns[readings.count].values[own]
-        new = np.ones(len(groups), np.bool_)
-        new[1:] = (groups[1:] != groups[:-1]) | (count[1:] != count[:-1])
+                raise TransferError(f"{readings.name} need the totals: decode {name}")
+        own = on_channel(columns, channel)
+        told = np.stack([_told(columns.columns[name], own) for name in readings.told])
+        new = np.ones(told.shape[1], np.bool_)
+        new[1:] = (told[:, 1:] != told[:, :-1]).any(axis=0)
         rows, times = columns.rows[own], columns.timestamp[own]
-        changes: list[tuple[int, float, Totals]] = []
+        changes: list[tuple[int, float, Told]] = []
         for at in np.flatnonzero(new):
-            totals = Totals(int(groups[at]), int(count[at]))
-            if self._totals.get((readings.name, channel)) != totals:
-                self._totals[readings.name, channel] = totals
+            totals = tuple(None if each < 0 else int(each) for each in told[:, at])
+            if self._told.get((readings.name, channel)) != totals:
+                self._told[readings.name, channel] = totals
                 changes.append((int(rows[at]), float(times[at]), totals))
         return changes
 
@@ -158,10 +157,10 @@ class CellColumns:
         readings: Readings,
         channel: Channel,
         columns: MessageColumns | None,
-        changes: list[tuple[int, float, Totals]],
+        changes: list[tuple[int, float, Told]],
     ) -> list[Cycles]:
         """Frames and totals in the order in which they came."""
-        own = slice(0) if columns is None else _on_channel(columns, channel)
+        own = slice(0) if columns is None else on_channel(columns, channel)
         rows = np.empty(0, np.int64) if columns is None else columns.rows[own]
         if columns is not None and len(rows):
             stream.hold(frames_of(readings, columns, own))
@@ -176,12 +175,13 @@ class CellColumns:
 
     @staticmethod
     def _tables(readings: Readings, channel: Channel, cycles: list[Cycles]) -> list[CycleTable]:
+        first = readings.parts.transfer.first_group - 1
         return [
             CycleTable(
                 _name(readings, each.layout),
                 readings,
                 channel,
-                tuple((csc, n) for csc, count in each.layout for n in range(1, count + 1)),
+                tuple((g + first, n) for g, count in each.layout for n in range(1, count + 1)),
                 each.timestamp,
                 each.values,
                 each.state,
@@ -193,12 +193,20 @@ class CellColumns:
 def _name(readings: Readings, layout: Layout) -> str:
     """No two layouts have the same."""
     counts = dict(layout)
-    each = [counts.get(csc, 0) for csc in range(1, max(counts, default=0) + 1)]
+    each = [counts.get(group, 0) for group in range(1, max(counts, default=0) + 1)]
     runs = [f"{len(list(run))}x{count}" for count, run in groupby(each)]
     return "_".join([readings.name, *runs])
 
 
-def _channels(*messages: MessageColumns | None) -> list[Channel]:
+def _told(column: Column, own: slice | NDArray[np.int64]) -> NDArray[np.int64]:
+    """The whole numbers that a signal tells, -1 where it tells none."""
+    told = column.values[own].astype(np.int64)
+    if column.valid is not None:
+        told[~column.valid[own]] = -1
+    return told
+
+
+def channels_of(*messages: MessageColumns | None) -> list[Channel]:
     """The channels that occur, in their order."""
     found: dict[Channel, None] = {}
     for columns in messages:
@@ -208,7 +216,7 @@ def _channels(*messages: MessageColumns | None) -> list[Channel]:
     return list(found)
 
 
-def _on_channel(columns: MessageColumns, channel: Channel) -> slice | NDArray[np.int64]:
+def on_channel(columns: MessageColumns, channel: Channel) -> slice | NDArray[np.int64]:
     """The rows of a message that came on a channel."""
     if channel not in columns.block.channels:
         return slice(0)

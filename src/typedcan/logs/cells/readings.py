@@ -1,4 +1,4 @@
-"""The frames that carry what is measured by CSC, as columns."""
+"""The frames that carry readings by group, as columns."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.columns import Column, MessageColumns, State
-from typedcan.logs.grouped import KEY_BITS, Readings
+from typedcan.logs.grouped import Readings
 from typedcan.model.errors import TypedcanError
+from typedcan.model.transfers.cycle import NUMBER_BITS
+from typedcan.model.transfers.reading_rules import fills_of
 
 
-class CellsError(TypedcanError, ValueError):
-    """What was decoded is not what cells and probes are made of."""
+class TransferError(TypedcanError, ValueError):
+    """What was decoded is not what the values of a transfer are made of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,16 +27,16 @@ class ReadingFrames:
     time
         Seconds.
     key
-        CSC and frame number in one; the CSC is 0 where the frame has none.
-    highest
-        The last reading of the CSC that has a value in this frame, from 1; 0 for none.
+        Group and frame number in one, both from 1; the group is 0 where the frame has none.
+    within
+        The last reading of the frame that has a value, from 1; 0 for none.
     values, state
         The readings and their `State`, shape (n, readings in a frame).
     """
 
     time: NDArray[np.float64]
-    key: NDArray[np.int32]
-    highest: NDArray[np.int32]
+    key: NDArray[np.int64]
+    within: NDArray[np.uint8]
     values: NDArray[np.float64]
     state: NDArray[np.uint8]
 
@@ -45,7 +47,7 @@ class ReadingFrames:
     def rows(self, rows: NDArray[np.int64]) -> ReadingFrames:
         """Some of the frames."""
         return ReadingFrames(
-            self.time[rows], self.key[rows], self.highest[rows], self.values[rows], self.state[rows]
+            self.time[rows], self.key[rows], self.within[rows], self.values[rows], self.state[rows]
         )
 
     def followed_by(self, other: ReadingFrames) -> ReadingFrames:
@@ -53,7 +55,7 @@ class ReadingFrames:
         return ReadingFrames(
             np.concatenate([self.time, other.time]),
             np.concatenate([self.key, other.key]),
-            np.concatenate([self.highest, other.highest]),
+            np.concatenate([self.within, other.within]),
             np.concatenate([self.values, other.values]),
             np.concatenate([self.state, other.state]),
         )
@@ -63,8 +65,8 @@ def no_frames(width: int) -> ReadingFrames:
     """No frames, of so many readings each."""
     return ReadingFrames(
         np.empty(0),
-        np.empty(0, np.int32),
-        np.empty(0, np.int32),
+        np.empty(0, np.int64),
+        np.empty(0, np.uint8),
         np.empty((0, width)),
         np.empty((0, width), np.uint8),
     )
@@ -77,28 +79,33 @@ def frames_of(
 
     Raises
     ------
-    CellsError
+    TransferError
         A signal was not decoded, or to raw values.
     """
-    for name in (readings.csc, readings.number, *readings.items):
+    for name in (readings.group, readings.number, *readings.items):
         if name not in columns.columns:
-            raise CellsError(
+            raise TransferError(
                 f"{readings.name} need all signals of {readings.message}: decode {name}"
             )
     items = [columns.columns[name] for name in readings.items]
     if not all(item.signal.scaled for item in items):
-        raise CellsError(f"{readings.name} are made of physical values, not of raw ones")
+        raise TransferError(f"{readings.name} are made of physical values, not of raw ones")
     values = np.stack([item.values[own] for item in items], axis=1, dtype=np.float64)
     state = np.stack([_state(item)[own] for item in items], axis=1)
     values[state != State.VALUE] = np.nan
-    number = columns.columns[readings.number].values[own].astype(np.int32)
-    csc_column = columns.columns[readings.csc]
-    csc = csc_column.values[own].astype(np.int32)
-    csc[np.isin(csc, readings.no_csc)] = 0
-    if csc_column.valid is not None:
-        csc[~csc_column.valid[own]] = 0
+    transfer = readings.parts.transfer
+    number = columns.columns[readings.number].values[own].astype(np.int64)
+    group_column = columns.columns[readings.group]
+    raw = group_column.values[own].astype(np.int64)
+    group = raw + (1 - transfer.first_group)
+    group[np.isin(raw, readings.no_group)] = 0
+    if group_column.valid is not None:
+        group[~group_column.valid[own]] = 0
+    number += 1 - transfer.first_number
+    number[number >= 1 << NUMBER_BITS] = 0
+    key = (group << NUMBER_BITS) | number
     return ReadingFrames(
-        columns.timestamp[own], (csc << KEY_BITS) | number, _highest(state, number), values, state
+        columns.timestamp[own], key, _within(readings, values, state), values, state
     )
 
 
@@ -108,10 +115,14 @@ def _state(column: Column) -> NDArray[np.uint8]:
     return column.state
 
 
-def _highest(state: NDArray[np.uint8], number: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Counted over the frames of the CSC; a reading that is abnormal is there."""
-    width = state.shape[1]
-    within = np.zeros(len(state), np.int32)
-    for position in range(width):
-        within[state[:, position] != State.INVALID] = position + 1
-    return np.where(within > 0, (number - 1) * width + within, 0).astype(np.int32)
+def _within(
+    readings: Readings, values: NDArray[np.float64], state: NDArray[np.uint8]
+) -> NDArray[np.uint8]:
+    """The last reading of each frame that has a value; one that is abnormal is there."""
+    there = state != State.INVALID
+    for position, (low, high) in enumerate(fills_of(readings.parts)):
+        there[:, position] &= ~((low < values[:, position]) & (values[:, position] < high))
+    within = np.zeros(len(state), np.uint8)
+    for position in range(state.shape[1]):
+        within[there[:, position]] = position + 1
+    return within

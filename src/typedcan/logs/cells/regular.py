@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.cells.readings import ReadingFrames
-from typedcan.logs.grouped import KEY_BITS
-
-_CSCS = 1 << 8
+from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, Cycle
 
 
 class Regular:
@@ -22,30 +18,26 @@ class Regular:
         The frames.
     first, stop
         Which of them count.
-    wanted
-        The keys of a cycle, ascending.
-    known
-        The highest reading of a CSC that is nothing new.
+    cycle
+        What a cycle has, and what of it is nothing new.
     """
 
-    def __init__(
-        self,
-        frames: ReadingFrames,
-        first: int,
-        stop: int,
-        wanted: tuple[int, ...],
-        known: Callable[[int], int],
-    ) -> None:
-        self.wanted = wanted
-        self._keys = np.array(wanted, np.int32)
+    def __init__(self, frames: ReadingFrames, first: int, stop: int, cycle: Cycle[int]) -> None:
+        self._wanted = np.array(cycle.wanted, np.int64)
         self._time = frames.time
         self._key = frames.key
         self._stop = stop
-        length = len(wanted)
+        length = len(self._wanted)
         own = slice(first, stop)
         key = frames.key[own]
-        limits = np.array([known(csc) for csc in range(_CSCS)], np.int32)
-        odd = frames.highest[own] > limits[key >> KEY_BITS]
+        # The highest frame of each group, and the readings there, that say nothing new.
+        groups = range(max(cycle.counts or (), default=0) + 1)
+        group = np.minimum(key >> NUMBER_BITS, groups[-1])  # others end a stretch anyway
+        known = np.array([cycle.shape.known(each) for each in groups], np.int64)
+        before = np.array([cycle.shape.before(each) for each in groups], np.int64)
+        within = frames.within[own]
+        highest = ((key & NUMBERS) - 1 - before[group]) * cycle.width + within
+        odd = (highest > known[group]) & (within > 0)
         self._odd = np.flatnonzero(odd) + first
         self._breaks = np.flatnonzero(key[length:] != key[:-length]) + first + length
         self._steps = np.diff(frames.time[own], prepend=frames.time[first : first + 1])
@@ -57,13 +49,13 @@ class Regular:
         ``last`` is when the frame before came; ``window`` is how long a cycle may take, and
         ``silence`` how long a pause may be, in seconds.
         """
-        length = len(self.wanted)
+        length = len(self._wanted)
         none = np.empty((0, length), np.int64)
         if row + length > self._stop or self._time[row] - last > silence:
             return none
         own = self._key[row : row + length]
         order = own.argsort(kind="stable")
-        if not np.array_equal(own[order], self._keys):
+        if not np.array_equal(own[order], self._wanted):
             return none
         end = self._before(self._odd, row, self._before(self._breaks, row + length, self._stop))
         count = self._in_time((end - row) // length, row, window, silence)
@@ -78,7 +70,7 @@ class Regular:
 
     def _in_time(self, count: int, row: int, window: float, silence: float) -> int:
         """How many of the cycles come before one that takes too long, or a pause."""
-        length = len(self.wanted)
+        length = len(self._wanted)
         shape = (count, length)
         end = row + count * length
         times = self._time[row:end].reshape(shape)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,10 +11,11 @@ from numpy.typing import NDArray
 
 from typedcan.logs.cells.assembly import Assembly, Complete, CycleCounts
 from typedcan.logs.cells.readings import ReadingFrames, no_frames
-from typedcan.logs.cells.shape import seen_shape
-from typedcan.logs.grouped import KEY_BITS
-from typedcan.model.transfers.cycle import frames_in
-from typedcan.model.transfers.shape import Shape, Totals, TotalsShape
+from typedcan.logs.grouped import Readings
+from typedcan.model.transfer import Numbering
+from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, frames_in
+from typedcan.model.transfers.reading_rules import shape_of, totals_of
+from typedcan.model.transfers.shape import FixedShape, Shape
 
 _WATCHED = 2.0
 """Seconds that are watched for what a cycle has."""
@@ -20,8 +23,14 @@ _WATCHED = 2.0
 _WATCHED_FRAMES = 1 << 16
 """More frames are never watched, whatever their times."""
 
+_SURPLUS = 5
+"""How many frames beyond what was seen show that there is more."""
+
+_OFTEN = 0.5
+"""Frames that came less often than this, beside the most frequent one, are taken for errors."""
+
 Layout = tuple[tuple[int, int], ...]
-"""CSCs, each with the number of its readings, ascending."""
+"""Groups from 1, each with the number of its readings, ascending."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,29 +48,30 @@ class Stream:
 
     Parameters
     ----------
-    width
-        Readings in a frame.
-    period
-        Seconds between cycles.
+    readings
+        What they carry.
     assume_seen
         Whether to watch what comes while there are no totals.
     """
 
-    def __init__(self, width: int, period: float, *, assume_seen: bool) -> None:
-        self._width = width
-        self._period = period
+    def __init__(self, readings: Readings, *, assume_seen: bool) -> None:
+        self._parts = readings.parts
+        self._width = len(readings.items)
+        self._window = readings.window
         self._assume_seen = assume_seen
-        self._told: Shape | None = None
+        self._contradictions = 0
         self._assembly: Assembly | None = None
-        self._held = no_frames(width)
+        self._held = no_frames(self._width)
         self._next = 0  # of the rows held: before are those that pieces point to
         self._stop = 0  # of the rows held: from here on they are still to be taken
         self._unassigned = 0
+        if not readings.told:
+            self.tell((), 0.0)
 
     @property
     def counts(self) -> CycleCounts:
         """What became of the frames."""
-        counts = CycleCounts(unassigned=self._unassigned)
+        counts = CycleCounts(unassigned=self._unassigned, contradictions=self._contradictions)
         if self._assembly is not None:
             counts.add(self._assembly.counts)
         return counts
@@ -79,13 +89,16 @@ class Stream:
             found += self._run()
         return found
 
-    def tell(self, totals: Totals, at: float) -> None:
+    def tell(self, told: tuple[int | None, ...], at: float) -> None:
         """Note other totals, at that time."""
-        # A pack that counts none has not counted yet.
-        self._told = TotalsShape(totals) if totals.groups and totals.count else None
-        if self._told is not None:
-            self._begin(self._told, at)
-        elif self._assembly is not None:
+        totals = totals_of(self._parts, told)
+        shape = None if totals is None else shape_of(self._parts, totals)
+        if isinstance(shape, str):
+            self._contradictions += 1
+        elif shape is not None:
+            self._begin(shape, at)
+            return
+        if self._assembly is not None:
             self._assembly.forget(at)
 
     def finish(self, end: float) -> list[Cycles]:
@@ -107,7 +120,7 @@ class Stream:
             return False
         frames = self._held
         part = slice(self._next, self._stop)
-        with_values = np.flatnonzero(frames.highest[part] > 0)
+        with_values = np.flatnonzero(frames.within[part] > 0)
         begin = self._next + int(with_values[0]) if len(with_values) else self._stop
         self._unassigned += begin - self._next
         self._next = begin
@@ -122,19 +135,14 @@ class Stream:
         if begin == end:
             return
         part = slice(begin, end)
-        keys = self._held.key[part]
-        numbers = keys & ((1 << KEY_BITS) - 1)
-        triples = zip(
-            (keys >> KEY_BITS).tolist(),
-            numbers.tolist(),
-            self._held.highest[part].tolist(),
-            strict=True,
-        )
-        self._begin(seen_shape(triples), float(self._held.time[begin]))
+        seen = zip(self._held.key[part].tolist(), self._held.within[part].tolist(), strict=True)
+        through = self._parts.transfer.numbering is Numbering.THROUGH
+        shape = seen_shape(seen, self._width, through=through)
+        self._begin(shape, float(self._held.time[begin]))
 
     def _begin(self, shape: Shape, at: float) -> None:
         if self._assembly is None:
-            self._assembly = Assembly(self._width, self._period, shape)
+            self._assembly = Assembly(self._width, self._window, shape)
         else:
             self._assembly.begin(shape, at)
 
@@ -169,6 +177,31 @@ class Stream:
             pieces[key] = places[row]
         self._next = len(old)
         self._stop = len(self._held)
+
+
+def seen_shape(
+    frames: Iterable[tuple[int, int]], width: int, *, through: bool = False
+) -> FixedShape:
+    """The shape that frames show: each its key, and the last of its readings with a value.
+
+    ``through``: the frames are numbered through all groups.
+    """
+    often: Counter[int] = Counter()
+    last: dict[int, int] = {}
+    for key, within in frames:
+        if key > NUMBERS and key & NUMBERS and within:
+            often[key] += 1
+            last[key] = max(within, last.get(key, 0))
+    enough = _OFTEN * max(often.values(), default=0)
+    numbers: dict[int, dict[int, int]] = {}
+    for key in sorted(key for key, count in often.items() if count >= enough):
+        numbers.setdefault(key >> NUMBER_BITS, {})[key & NUMBERS] = last[key]
+    before = {group: min(own) - 1 if through else 0 for group, own in numbers.items()}
+    counts = {
+        group: (max(own) - 1 - before[group]) * width + own[max(own)]
+        for group, own in numbers.items()
+    }
+    return FixedShape(counts, before, surplus=_SURPLUS, forgettable=True)
 
 
 def _joined(complete: list[Complete]) -> list[Complete]:

@@ -8,6 +8,8 @@ from typing import Any
 import pyarrow as pa
 from pyarrow import csv
 
+from typedcan.logs.write.plain import is_plain, text_array
+
 
 class CsvFile:
     """A CSV file that grows by some rows at a time.
@@ -28,6 +30,9 @@ class CsvFile:
 
     def write(self, rows: pa.Table) -> None:
         """Add rows."""
+        for place, part in enumerate(rows.schema):
+            if not is_plain(part.type):
+                rows = rows.set_column(place, part.name, text_array(rows.column(place)))
         self._writer.write_table(rows.cast(self._schema))
 
     def close(self) -> None:
@@ -36,6 +41,8 @@ class CsvFile:
 
 
 def _plain(part: pa.Field[Any]) -> pa.Field[Any]:
-    """The column with words in place of a dictionary."""
+    """The column with words in place of a dictionary, and texts in place of bytes and lists."""
+    if not is_plain(part.type):
+        return pa.field(part.name, pa.string())
     kind = part.type.value_type if pa.types.is_dictionary(part.type) else part.type
     return pa.field(part.name, kind)

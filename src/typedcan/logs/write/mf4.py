@@ -13,6 +13,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from typedcan.logs.arrow import STATES
+from typedcan.logs.write.plain import is_plain, text_array
 from typedcan.model.errors import TypedcanError
 
 _SHORT = 8
@@ -20,6 +21,9 @@ _SHORT = 8
 
 _DIGITS, _NAME = 160, 32
 """Bytes of a number beyond 64 bits, as digits (512 bits have 155), and of a channel's name."""
+
+_LONGEST = 8192
+"""Bytes of a text; each sample takes as many as the longest can have."""
 
 
 class Mf4Error(TypedcanError):
@@ -99,8 +103,11 @@ def _samples(array: Any, metadata: dict[str, str]) -> tuple[NDArray[Any], dict[s
     labels = _labels(metadata)
     plain = float(metadata.get("factor", "1")) == 1 and float(metadata.get("offset", "0")) == 0
     if not pa.types.is_dictionary(array.type):
+        if not is_plain(array.type):
+            array = text_array(array)
         if pa.types.is_string(array.type):
-            return _bytes(array.fill_null(""), _DIGITS), None
+            width = min(int(metadata.get("bytes", _DIGITS)), _LONGEST)
+            return _bytes(array.fill_null(""), width), None
         samples = array.fill_null(0).to_numpy()
         return samples, _conversion(labels) if plain and samples.dtype.kind in "iu" else None
     indices = array.indices.fill_null(0).to_numpy()

@@ -101,8 +101,21 @@ class NumberedBlocks(Kind):
 
     def columns(self, parts: Parts) -> Mapping[str, type]:
         """The bytes, where each item is one, else a list of numbers."""
-        are_bytes = all(
-            part.is_whole_number and not part.signal.unit and part.signal.length <= 8
-            for part in parts.items
-        )
-        return {"data": bytes} if are_bytes else {"values": list}
+        return {"data": bytes} if _are_bytes(parts) else {"values": list}
+
+    def cells(self, parts: Parts, value: Any) -> tuple[Any, ...]:
+        """The bytes, or the numbers, None where there is none."""
+        if _are_bytes(parts):
+            return (bytes(value),)
+        return ([item if isinstance(item, int | float) else None for item in value.values],)
+
+
+def _are_bytes(parts: Parts) -> bool:
+    """Whether each item is a byte, whatever it is."""
+    return all(
+        part.is_whole_number
+        and not part.signal.unit
+        and part.signal.length <= 8
+        and part.signal.invalid_code is part.signal.abnormal_code is None
+        for part in parts.items
+    )

@@ -23,6 +23,9 @@ ROUNDS_IN_DOUBT = 5
 NUMBER_BITS = 16
 """Of a key, which is a frame: its group above these bits, and in them its number as sent."""
 
+NUMBERS = (1 << NUMBER_BITS) - 1
+"""The bits of a key that are the number; no frame has a higher one."""
+
 MOST_FRAMES = 1 << 16
 """More different frames of a cycle are never kept."""
 
@@ -59,6 +62,8 @@ class Cycle(Generic[PieceT]):
     def __init__(self, width: int, window: float, shape: Shape) -> None:
         self.width = width
         self.window = window
+        self.silence = SILENCE * window
+        """Seconds without a frame after which, with the next one, all is to be begun anew."""
         self.shape = shape
         self.duplicates = 0
         """Frames that came again before the cycle was complete."""
@@ -75,6 +80,8 @@ class Cycle(Generic[PieceT]):
         self.completed: list[PieceT] = []
         self.last = math.inf
         """When a frame came last."""
+        self.deadline = math.inf
+        """When `expire` has something to say if no frame arrives; `math.inf` for never."""
         self.wanted: tuple[int, ...] = ()
         """The keys of a cycle, ascending; none while they are not known."""
         self.counts: Mapping[int, int] | None = None
@@ -82,22 +89,16 @@ class Cycle(Generic[PieceT]):
         self.shape = self.shape.anew()
         self.version += 1
         self._at: dict[int, float] = {}
-        self._fresh: set[int] = set()  # came since the last complete cycle
+        self._known: dict[int, int] = {}  # frames that say nothing new: up to which reading
         self._lacking: set[int] = set()
         self._rounds = 0
-        self._since = math.inf  # the first frame of a cycle that is not overdue yet
         self._overdue = False
         self._reshape()
 
     @property
-    def deadline(self) -> float:
-        """When `expire` has something to say if no frame arrives; `math.inf` for never."""
-        return self._since + self.window
-
-    @property
     def is_at_begin(self) -> bool:
         """Whether nothing of a cycle has come, and one that comes would count."""
-        return not self._fresh and bool(self.wanted) and self.is_believed
+        return not self.pieces and bool(self.wanted) and self.is_believed
 
     @property
     def is_believed(self) -> bool:
@@ -116,32 +117,46 @@ class Cycle(Generic[PieceT]):
 
     def expire(self, now: float) -> bool:
         """Whether a cycle is overdue at that time; True once until the next that is complete."""
-        if now < self._since + self.window:
+        if now < self.deadline:
             return False
-        self._since = math.inf
+        self.deadline = math.inf
         self._overdue = True
         return True
 
-    def is_silent(self, at: float) -> bool:
-        """Whether before a frame at that time nothing came for so long that all is forgotten."""
-        return at - self.last > SILENCE * self.window
-
-    def take(self, group: int, number: int, within: int, piece: PieceT, at: float) -> Outcome:
-        """Take a frame, after `expire` and what follows from `is_silent`.
+    def take(self, key: int, within: int, piece: PieceT, at: float) -> Outcome:
+        """Take a frame, after `expire`, and `reset` where `silence` has passed since the `last`.
 
         Parameters
         ----------
-        group, number
-            Of the frame, both from 1.
+        key
+            Of the frame, see `key_of`.
         within
             The last of its readings that has a value, from 1; 0 where none has.
         """
         self.last = at
-        shape = self.shape
-        if number < 1 or not shape.has(group):
+        if within > self._known.get(key, -1):
+            outcome = self._learn(key, within)
+            if outcome is not Outcome.COMPLETE:
+                return outcome
+        if key in self.pieces:
+            self.duplicates += 1
+        elif len(self.pieces) >= MOST_FRAMES:
             return Outcome.FOREIGN
+        if self.deadline == math.inf and not self._overdue:
+            self.deadline = at + self.window
+        self.pieces[key] = piece
+        self._at[key] = at
+        self._lacking.discard(key)
+        if self._lacking or not self.counts or not self._is_complete(at):
+            return Outcome.KEPT
+        return Outcome.COMPLETE
+
+    def _learn(self, key: int, within: int) -> Outcome:
+        """What a frame says of the shape; COMPLETE: it is one to keep."""
+        group, number = key >> NUMBER_BITS, key & NUMBERS
+        shape = self.shape
         before = (number - 1 - shape.before(group)) * self.width
-        if before < 0:
+        if number < 1 or not shape.has(group) or before < 0:
             return Outcome.FOREIGN
         highest = before + within
         if before >= shape.limit(group):
@@ -156,21 +171,9 @@ class Cycle(Generic[PieceT]):
                 return Outcome.CONTRADICTED
             self.version += 1
             self._reshape()
-        return self._keep(group << NUMBER_BITS | number, piece, at)
-
-    def _keep(self, key: int, piece: PieceT, at: float) -> Outcome:
-        if key not in self.pieces and len(self.pieces) >= MOST_FRAMES:
-            return Outcome.FOREIGN
-        if self._since == math.inf and not self._overdue:
-            self._since = at
-        self.duplicates += key in self._fresh
-        self.pieces[key] = piece
-        self._at[key] = at
-        self._fresh.add(key)
-        self._lacking.discard(key)
-        if not self.counts or self._lacking:
-            return Outcome.KEPT
-        return Outcome.COMPLETE if self._is_complete(at) else Outcome.KEPT
+        if not within or highest <= shape.known(group):
+            self._known[key] = within
+        return Outcome.COMPLETE
 
     def _reshape(self) -> None:
         """Take over what is known of the shape."""
@@ -183,7 +186,7 @@ class Cycle(Generic[PieceT]):
                 for group, count in sorted((counts or {}).items())
                 for number in frames_in(count, self.width)
             )
-            self._lacking = set(self.wanted) - self._fresh
+            self._lacking = set(self.wanted).difference(self.pieces)
 
     def _is_complete(self, at: float) -> bool:
         """Whether a cycle that lacks nothing counts."""
@@ -192,16 +195,20 @@ class Cycle(Generic[PieceT]):
             self._lacking = stale
             return False
         self._rounds += 1
-        self._since = math.inf
+        self.deadline = math.inf
         self._lacking = set(self.wanted)
         if not self.is_believed:
             return False
         self.completed = [self.pieces[key] for key in self.wanted]
         self.pieces.clear()
         self._at.clear()
-        self._fresh.clear()
         self._overdue = False
         return True
+
+
+def key_of(group: int, number: int) -> int:
+    """The key of a frame by its group and number, both from 1; 0, which is none, for others."""
+    return group << NUMBER_BITS | number if group > 0 and 0 < number <= NUMBERS else 0
 
 
 def frames_in(count: int, width: int) -> range:

@@ -168,9 +168,17 @@ class Kind(ABC):
         """The frames that carry a value; raises `SplitError`."""
 
     def columns(self, parts: Parts) -> Mapping[str, type]:
-        """The columns of a table of values, and what they hold; none where it makes its own."""
+        """The columns of a table of values: text, bytes, or a list of numbers.
+
+        None where values have no table of this form.
+        """
         del parts
         return {}
+
+    def cells(self, parts: Parts, value: Any) -> tuple[Any, ...]:
+        """What those columns hold for a value."""
+        del parts, value
+        return ()
 
 
 def whole(value: Any) -> int | None:

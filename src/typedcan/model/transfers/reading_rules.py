@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from typedcan.model.signal_state import SignalState
 from typedcan.model.transfer import Numbering
-from typedcan.model.transfers.cycle import NUMBER_BITS, WINDOW, Cycle, Outcome
+from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, WINDOW, Cycle, Outcome, key_of
 from typedcan.model.transfers.kind import MOST_ITEMS, Problem, ProblemKind, Rules, whole
 from typedcan.model.transfers.parts import Parts
 from typedcan.model.transfers.shape import FixedShape, Shape, Totals, TotalsShape, numbered_through
@@ -174,16 +174,14 @@ class ReadingRules(Rules):
     def _take_frame(
         self, cycle: Cycle[tuple[Any, ...]], values: tuple[Any, ...], at: float
     ) -> tuple[Readings | Problem, ...]:
-        if cycle.is_silent(at):
+        if at - cycle.last > cycle.silence:
             cycle.reset()
         transfer, items = self._parts.transfer, values[self._items :]
         group, number = whole(values[0]), whole(values[1])
-        outcome = Outcome.FOREIGN
-        if group is None or number is None:
-            cycle.last = at
-        else:
-            own = (group - transfer.first_group + 1, number - transfer.first_number + 1)
-            outcome = cycle.take(*own, _last_reading(items, self._fills), items, at)
+        key = 0
+        if group is not None and number is not None:
+            key = key_of(group - transfer.first_group + 1, number - transfer.first_number + 1)
+        outcome = cycle.take(key, _last_reading(items, self._fills), items, at)
         if outcome is Outcome.COMPLETE:
             return (self._result(cycle, at),)
         if outcome is Outcome.FOREIGN:
@@ -279,9 +277,8 @@ def _last_reading(items: Sequence[Any], fills: Sequence[tuple[float, float]]) ->
 def _named(parts: Parts, keys: Sequence[int]) -> str:
     """Frames that are missing, for people."""
     group, number = parts.transfer.first_group - 1, parts.transfer.first_number - 1
-    mask = (1 << NUMBER_BITS) - 1
     named = ", ".join(
-        f"frame {(key & mask) + number} of {parts.word} {(key >> NUMBER_BITS) + group}"
+        f"frame {(key & NUMBERS) + number} of {parts.word} {(key >> NUMBER_BITS) + group}"
         for key in keys[:_NAMED]
     )
     more = f" and {len(keys) - _NAMED} more" if len(keys) > _NAMED else ""

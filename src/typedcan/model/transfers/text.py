@@ -99,6 +99,11 @@ class TextKind(Kind):
         del parts
         return {"text": str}
 
+    def cells(self, parts: Parts, value: Any) -> tuple[Any, ...]:
+        """The text."""
+        del parts
+        return (str(value),)
+
 
 class TextOverFrames(TextKind):
     """Characters in numbered frames of one message."""
