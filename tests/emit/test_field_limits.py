@@ -6,6 +6,7 @@ import importlib
 import sys
 import typing
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Any, Literal
 
 import cantools
@@ -68,8 +69,10 @@ def raw(message: Any, signal: str) -> object:
         ("unsigned", 0, 0),
         ("unsigned", 2.0**63, 2**63),
         ("unsigned", 2.0**64 - 2**12, 2**64 - 2**12),
-        ("signed", -(2.0**62), -(2**63)),
-        ("signed", 2.0**61, 2**62),
+        ("unsigned", 2**64 - 1, 2**64 - 1),
+        ("signed", Decimal(-(2**62) + 3), -(2**63)),
+        ("signed", 2**61, 2**62 - 6),
+        ("signed", 2.0**40, 2**41 - 6),
         ("falling", -255, 255),
         ("falling", 0, 0),
         ("too_far", 255, 255),
@@ -92,8 +95,10 @@ def test_the_ends_of_a_range_are_sent_as_far_as_the_bits_go(
 @pytest.mark.parametrize(
     ("field", "value"),
     [
-        ("unsigned", 2**64 - 1),
+        ("unsigned", 2**64),
         ("unsigned", 2.0**64),
+        ("signed", 2.0**61),
+        ("signed", Decimal(-(2**62)) + Decimal("2.5")),
         ("signed", 2.0**62 + 2**12),
         ("signed", -(2.0**63)),
         ("falling", -256),

@@ -152,7 +152,7 @@ def test_every_signal_and_message_knows_its_line(root: Path) -> None:
 
 def test_a_file_carries_what_it_defines() -> None:
     assert load("attributes").carries == {Aspect.PERIODS, Aspect.REFERENCES}
-    assert load("j1939").carries == {Aspect.ADDRESSES}
+    assert load("j1939").carries == {Aspect.ADDRESSES, Aspect.FRAME_FORMATS}
     assert load("start_values").carries == {Aspect.START_VALUES}
     assert load("shared_value_tables").carries == {Aspect.VALUE_TABLE_NAMES}
     assert load("comments").carries == {Aspect.COMMENTS}

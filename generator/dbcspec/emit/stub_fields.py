@@ -8,9 +8,10 @@ from dbcspec.emit.stub_branches import Conditions, conditions
 from dbcspec.emit.stub_docs import field_doc
 from dbcspec.emit.stub_names import StubNames
 from typedcan.model.kinds import Kind, kind_of
-from typedcan.model.layout import in_bit_order
+from typedcan.model.layout import readable
 from typedcan.model.naming import member_names
 from typedcan.model.protocol import Message, Signal, ValueTable
+from typedcan.model.scaling import is_whole, scaling_of
 
 _TABLE_BITS = 10
 _CODE_BITS = 8
@@ -37,7 +38,7 @@ class StubField:
 
 def fields_of(message: Message, names: StubNames) -> list[StubField]:
     """The fields of a message, in the order in which a DBC reader lists its signals."""
-    ordered = in_bit_order(message.signals)
+    ordered = readable(message)
     return [
         _field(message, signal, index, conditions(message, ordered, signal), names)
         for index, signal in enumerate(ordered)
@@ -72,7 +73,7 @@ def _annotation(signal: Signal, kind: Kind, names: StubNames) -> str:
     if kind is Kind.LABELLED and signal.value_table:
         return f"{names.enum_of(signal.value_table)} | {code_type(signal) or 'int'}"
     return {
-        Kind.PHYSICAL: f"float{state}",
+        Kind.PHYSICAL: f"{'int' if is_whole(signal) else 'float'}{state}",
         Kind.FLOAT: "float",
         Kind.NUMBER: f"int{state}",
         Kind.CHARACTER: f"str | int{state}",
@@ -98,10 +99,10 @@ def _default(signal: Signal, kind: Kind, names: StubNames) -> str:
         enum = names.enum_of(signal.value_table)
         return f"{enum}.{member}" if member else str(raw)
     if kind is Kind.FLOAT:
-        return _float(_physical(signal, raw))
+        return _literal(_physical(signal, kind, raw))
     if raw in _states(signal):
         return f"SignalState.{_states(signal)[raw]}"
-    return _float(_physical(signal, raw)) if kind is Kind.PHYSICAL else str(raw)
+    return _literal(_physical(signal, kind, raw))
 
 
 def _statement(signal: Signal) -> str:
@@ -113,13 +114,18 @@ def _statement(signal: Signal) -> str:
     return signal.value_table.labels().get(signal.start_value, "")
 
 
-def _physical(signal: Signal, raw: int) -> float:
+def _scaling(signal: Signal, kind: Kind) -> tuple[float, float]:
+    return scaling_of(signal) if kind in (Kind.PHYSICAL, Kind.FLOAT) else (1, 0)
+
+
+def _physical(signal: Signal, kind: Kind, raw: int) -> float:
     """In the arithmetic of the decoder, so that limits hold to the last bit."""
-    return raw * float(signal.factor) + float(signal.offset)
+    factor, offset = _scaling(signal, kind)
+    return raw * factor + offset
 
 
-def _float(value: float) -> str:
-    """A literal as the formatter wants it."""
+def _literal(value: float) -> str:
+    """A number as the formatter wants it."""
     return repr(value).replace("e+", "e")
 
 
@@ -130,12 +136,14 @@ def _expression(signal: Signal, kind: Kind, raw: str, table: str) -> str:
         value = f"{table}[{raw}]" if has_short_table(signal) else f"{table}.get({raw}, {raw})"
     if kind is Kind.LABELLED:
         return value
-    if kind in (Kind.PHYSICAL, Kind.FLOAT):
-        value = f"{raw} * {_float(float(signal.factor))}" if signal.factor != 1 else f"float({raw})"
-        if signal.offset:
-            start = raw if signal.factor == 1 else value
-            sign = "-" if signal.offset < 0 else "+"
-            value = f"{start} {sign} {_float(abs(float(signal.offset)))}"
+    factor, offset = _scaling(signal, kind)
+    if factor != 1:
+        value = f"{raw} * {_literal(factor)}"
+    elif isinstance(factor, float):
+        value = f"float({raw})"
+    if offset:
+        start = raw if factor == 1 else value
+        value = f"{start} {'-' if offset < 0 else '+'} {_literal(abs(offset))}"
     for code, state in reversed(_states(signal).items()) if kind is not Kind.FLOAT else ():
         value = f"{state} if {raw} == {code} else {value}"
     return value

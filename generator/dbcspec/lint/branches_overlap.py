@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.overlaps import overlaps
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.soundness import overlaps
 
 
 def _check(subject: Subject) -> Iterator[Found]:

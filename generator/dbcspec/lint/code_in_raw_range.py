@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.places import Places, has_room
+from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.soundness import has_room
 
 
 def _check(subject: Subject) -> Iterator[Found]:

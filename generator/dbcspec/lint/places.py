@@ -68,11 +68,6 @@ class Places:
         return user.where if user else NOWHERE
 
 
-def has_room(message: Message, signal: Signal) -> bool:
-    """Whether a signal has a length that its message can hold; signal-inside-message insists."""
-    return 1 <= signal.length <= 8 * message.length
-
-
 def node_names(spec: Spec) -> dict[str, str]:
     """Each printed name of a node, to its one name."""
     return {

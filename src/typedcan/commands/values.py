@@ -6,11 +6,14 @@ import difflib
 import inspect
 import re
 from collections.abc import Sequence
+from decimal import Decimal, InvalidOperation
+from typing import Any, cast
 
 from typedcan.model.plain import shown
 from typedcan.shell.console import CommandError
 from typedcan.wire.message import (
     CharacterField,
+    ExactField,
     Field,
     FilledField,
     LabelledField,
@@ -83,8 +86,11 @@ def _value(kind: type[Message], field: Field, text: str) -> Value:
     if state := _STATES.get(text.casefold()):
         return state
     try:
+        if isinstance(field, ExactField):
+            exact: Any = Decimal(text)  # not all its values are floats
+            return cast("Value", exact)
         return float(text) if isinstance(field, PhysicalField) else _whole(text)
-    except ValueError:
+    except (ValueError, InvalidOperation):
         what = "a number" if isinstance(field, PhysicalField) else "a whole number"
         what = "a character" if isinstance(field, CharacterField) else what
         problem = f"expected {what}, not {shown(text)}"

@@ -9,11 +9,12 @@ from enum import Enum
 from typedcan.logs.columns import SignalInfo, State
 from typedcan.logs.lanes import lane_of
 from typedcan.logs.multiplexing import Multiplexing, multiplexing_of
-from typedcan.logs.scaling import Scaling, factor_of, offset_of, raw_dtype, scaling_of, to_physical
+from typedcan.logs.scaling import Scaling, raw_dtype, scaling_of
 from typedcan.logs.stacks import ByteLoad, Part, Stack, stacks_of
 from typedcan.logs.wide import Wide
 from typedcan.model.errors import TypedcanError
 from typedcan.model.protocol import Message, Signal
+from typedcan.model.scaling import python_number, to_physical
 
 SHORT, LONG = 8, 64
 """Bytes of a payload row, of CAN and of CAN FD."""
@@ -141,7 +142,7 @@ def _codes(message: Message, signal: Signal, reserved: Reserved) -> Mapping[int,
 
 def _info(signal: Signal, mode: Mode, reserved: Mapping[int, State]) -> SignalInfo:
     labels = signal.value_table.labels() if signal.value_table else {}
-    factor, offset = factor_of(signal), offset_of(signal)
+    factor, offset = python_number(signal.factor), python_number(signal.offset)
     plain = factor == 1 and offset == 0 and not signal.is_float
     encoded = mode is Mode.LABELS and plain and not labels.keys() <= reserved.keys()
     return SignalInfo(

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import Any
 
 import numpy as np
 
 from typedcan.model.protocol import Signal
+from typedcan.model.scaling import is_exact, to_physical
 
 FLOAT64 = np.dtype(np.float64)
 OBJECT = np.dtype(object)
-_EXACT = 1 << 53
-"""Whole numbers up to here are float64 values, and so are their products and sums."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,34 +32,6 @@ class Scaling:
     factor: float | None = None
     offset: float = 0
     vector: bool = True
-
-
-def factor_of(signal: Signal) -> float:
-    """The factor as Python's number."""
-    return _python_number(signal.factor)
-
-
-def offset_of(signal: Signal) -> float:
-    """The offset as Python's number."""
-    return _python_number(signal.offset)
-
-
-def to_physical(signal: Signal) -> tuple[float, float]:
-    """Factor and offset in the arithmetic of cantools: integers where both are whole.
-
-    But those of floats, which stay as they are; 1 and 0 change no value at all.
-    """
-    factor, offset = factor_of(signal), offset_of(signal)
-    if factor == 1 and offset == 0:
-        return 1, 0
-    if not signal.is_float and factor == int(factor) and offset == int(offset):
-        return int(factor), int(offset)
-    return factor, offset
-
-
-def _python_number(value: Decimal) -> float:
-    """An integer where no point or exponent is written, as the readers of databases have it."""
-    return float(value) if value.as_tuple().exponent else int(value)
 
 
 def raw_dtype(signal: Signal) -> np.dtype[Any]:
@@ -91,7 +61,7 @@ def scaling_of(signal: Signal) -> Scaling:
     if signal.is_float:
         return Scaling(FLOAT64, float(factor), float(offset))
     low, high = signal.raw_limits
-    exact = abs(factor) * max(-low, high) + abs(offset) <= _EXACT
+    exact = is_exact(signal)
     if isinstance(factor, int) and isinstance(offset, int):
         return _whole(factor, offset, low, high, exact=exact)
     # Python multiplies two integers without rounding and rounds the sum alone.

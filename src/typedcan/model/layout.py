@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
 from typing import Literal
 
-from typedcan.model.protocol import ByteOrder, ReservedBits, Signal
+from typedcan.model.protocol import ByteOrder, Message, ReservedBits, Signal
 
 
 def bits(signal: Signal | ReservedBits) -> tuple[int, ...]:
@@ -31,6 +31,34 @@ def _downwards(start: int, length: int) -> Iterator[int]:
 def in_bit_order(signals: Iterable[Signal]) -> list[Signal]:
     """Signals in the order in which DBC readers list them: by start bit, bytes from the left."""
     return sorted(signals, key=first_bit)
+
+
+def readable(message: Message) -> list[Signal]:
+    """The signals that can be read in its frames, in the order in which DBC readers list them."""
+    left_out = {id(signal) for signal, _ in unreadable(message)}
+    return in_bit_order(signal for signal in message.signals if id(signal) not in left_out)
+
+
+def unreadable(message: Message) -> list[tuple[Signal, str]]:
+    """The signals that no frame has, and why: they, or what selects them, cannot be read there."""
+    by_name = {signal.name: signal for signal in message.signals}
+    reasons = ((signal, _unreadable(signal, message, by_name)) for signal in message.signals)
+    return [(signal, reason) for signal, reason in reasons if reason]
+
+
+def _unreadable(signal: Signal, message: Message, by_name: Mapping[str, Signal]) -> str:
+    above: list[str] = []
+    while signal.name not in above:
+        if first_bit(signal) + signal.length > 8 * message.length:
+            which = f"{signal.name}, which selects it," if above else "it"
+            return f"{which} lies outside of the {message.length} bytes of {message.name}"
+        if not signal.multiplexer:
+            return ""
+        above.append(signal.name)
+        if signal.multiplexer not in by_name:
+            return f"it is selected by {signal.multiplexer}, which {message.name} has not"
+        signal = by_name[signal.multiplexer]
+    return "it selects itself"
 
 
 def first_bit(signal: Signal) -> int:

@@ -11,7 +11,8 @@ import reprlib
 from collections.abc import Callable
 from decimal import Decimal
 from enum import Enum
-from numbers import Integral, Real
+from fractions import Fraction
+from numbers import Integral, Rational, Real
 from typing import TypeVar
 
 _T = TypeVar("_T")
@@ -71,6 +72,19 @@ def real_number(value: object) -> float | None:
     return number if number is not None and math.isfinite(number) else None
 
 
+def exact_number(value: object) -> Fraction:
+    """What a real number of any class is, exactly, or else the float nearest to it.
+
+    Raises `ValueError` where `real_number` gives None.
+    """
+    if exact := _tried(_exact_number, value):
+        return exact
+    number = real_number(value)
+    if number is None:
+        raise ValueError(f"{shown(value)} is no number")
+    return Fraction(number)
+
+
 def character(value: object) -> str | None:
     """The one character that a str, also numpy's, is; None for all else, enums too."""
     return _tried(_character, value)
@@ -106,6 +120,10 @@ def _real_number(value: object) -> float | None:
         whole = _integer(value)
         return None if whole is None else float(whole)
     return float(value) if isinstance(value, Real | Decimal) else None
+
+
+def _exact_number(value: object) -> Fraction | None:
+    return Fraction(value) if isinstance(value, float | Decimal | Rational) else None
 
 
 def _character(value: object) -> str | None:

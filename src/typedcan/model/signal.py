@@ -95,3 +95,10 @@ class Signal:
             ((self.minimum - self.offset) / self.factor, (self.maximum - self.offset) / self.factor)
         )
         return math.ceil(low), math.floor(high)
+
+    @property
+    def sendable(self) -> tuple[int, int]:
+        """The raw values of its range that its bits can hold; all that they can where none is."""
+        (low, high), (least, most) = self.raw_range, self.raw_limits
+        low, high = max(low, least), min(high, most)
+        return (low, high) if low <= high else (least, most)

@@ -10,10 +10,12 @@ from typing import Any
 
 from typedcan.model import protocol as model
 from typedcan.model.kinds import Kind, kind_of
-from typedcan.model.layout import in_bit_order
+from typedcan.model.layout import readable
+from typedcan.model.scaling import is_fine, is_whole, scaling_of
 from typedcan.model.signal_state import SignalState
 from typedcan.wire.fields import (
     CharacterField,
+    ExactField,
     Field,
     FilledField,
     FloatField,
@@ -37,18 +39,18 @@ def fields_of(message: model.Message, enums: Mapping[str, type[IntEnum]]) -> Map
 
     ``enums`` are those of the value tables, by the names of these.
     """
-    fields = (_field(message, signal, enums) for signal in in_bit_order(message.signals))
+    fields = (_field(message, signal, enums) for signal in readable(message))
     return MappingProxyType({field.name: field for field in fields})
 
 
 def selected_of(message: model.Message) -> Selected:
     """The fields of branches: the field of the selector, and the raw values that select them."""
-    names = {signal.name: signal.python_name for signal in message.signals}
+    names = {signal.name: signal.python_name for signal in readable(message)}
     return MappingProxyType(
         {
-            signal.python_name: (names[signal.multiplexer], signal.selectors)
+            names[signal.name]: (names[signal.multiplexer], signal.selectors)
             for signal in message.signals
-            if signal.multiplexer in names
+            if signal.name in names and signal.multiplexer
         }
     )
 
@@ -60,6 +62,8 @@ def _field(
     facts = _facts(signal, kind)
     if kind is Kind.LABELLED and signal.value_table:
         return LabelledField(**facts, enum=enums[signal.value_table.name])
+    if kind is Kind.PHYSICAL and (is_whole(signal) or is_fine(signal)):
+        return ExactField(**facts)
     return _KINDS[kind](**facts)
 
 
@@ -79,7 +83,7 @@ def _facts(signal: model.Signal, kind: Kind) -> dict[str, Any]:
     if kind is not Kind.FLOAT:
         facts["states"] = _states(signal)
     if kind in (Kind.PHYSICAL, Kind.FLOAT):
-        facts |= {"factor": float(signal.factor), "offset": float(signal.offset)}
+        facts["factor"], facts["offset"] = scaling_of(signal)
     minimum, maximum = _limits(signal, kind)
     return {**facts, "minimum": minimum, "maximum": maximum}
 
@@ -97,23 +101,25 @@ def _limits(signal: model.Signal, kind: Kind) -> tuple[float, float]:
     if kind is Kind.FLOAT:
         return float(signal.minimum), float(signal.maximum)
     low, high = _sendable(signal, kind)
+    if kind is Kind.PHYSICAL and is_whole(signal):
+        factor, offset = scaling_of(signal)
+        least, most = sorted((low * factor + offset, high * factor + offset))
+        return least, most
     return _physical_limits(signal, low, high) if kind is Kind.PHYSICAL else (low, high)
 
 
 def _sendable(signal: model.Signal, kind: Kind) -> tuple[int, int]:
     """The raw values of the range and, where they make the field, of the codes; if they fit."""
-    (low, high), (least, most) = signal.raw_range, signal.raw_limits
+    (low, high), (least, most) = signal.sendable, signal.raw_limits
     if kind is Kind.LABELLED and signal.value_table:
         codes = [code.value for code in signal.value_table.codes]
-        low, high = min(low, *codes), max(high, *codes)
-    low, high = max(low, least), min(high, most)
-    # The linter tells of a range that has none of the values that the bits can hold.
-    return (low, high) if low <= high else (least, most)
+        low, high = max(min(low, *codes), least), min(max(high, *codes), most)
+    return low, high
 
 
 def _physical_limits(signal: model.Signal, low: int, high: int) -> tuple[float, float]:
     """The physical values of the raw ends; those of over 53 bits, rounded towards each other."""
-    factor, offset = float(signal.factor), float(signal.offset)
+    factor, offset = scaling_of(signal)
     # In the arithmetic of the decoder, so that limits hold to the last bit.
     ends = sorted(raw * factor + offset for raw in (low, high))
     middle = sum(ends) / 2

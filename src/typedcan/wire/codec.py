@@ -103,12 +103,22 @@ class Codec:
             self._count(message, raw, kind.COUNTER, counter)
         checksum = kind.CHECKSUM
         if checksum is None:
-            return self._database.by_type[kind].packer.pack(raw)
+            return self._packed(message, raw)
         if renew:
             raw[checksum.signal] = 0
-        data = self._database.by_type[kind].packer.pack(raw)
+        data = self._packed(message, raw)
         given = None if renew else getattr(message, kind.field_of(checksum.signal).name)
         return self._sealed(kind, data) if given is None else data
+
+    def _packed(self, message: Message, raw: Mapping[str, int]) -> bytes:
+        kind = type(message)
+        try:
+            return self._database.by_type[kind].packer.pack(raw)
+        except ValueError as error:
+            names = {part.dbc_name: part.name for part in kind.FIELDS.values()}
+            field = names[str(error)]
+            problem = "shares bits with another signal, whose value needs them otherwise"
+            raise EncodeError(kind.NAME, field, getattr(message, field), problem) from None
 
     def _count(
         self, message: Message, raw: dict[str, int], runs: Counter, counter: int | None

@@ -7,6 +7,7 @@ from typing import Any
 
 from typedcan.wire.fields import (
     CharacterField,
+    ExactField,
     Field,
     FloatField,
     LabelledField,
@@ -60,6 +61,8 @@ def _converter(field: Field) -> _Convert:
         return lambda raw: members.get(raw, raw)
     if isinstance(field, FloatField):
         return lambda raw: raw * factor + offset
+    if isinstance(field, ExactField):
+        return lambda raw: states[raw] if raw in states else raw * factor + offset
     if isinstance(field, PhysicalField):
         return lambda raw: states[raw] if raw in states else float(raw * factor + offset)
     if isinstance(field, CharacterField):

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 from enum import IntEnum
 from typing import Any
 
 from typedcan.model import protocol as model
 from typedcan.model.kinds import Kind, enums, kind_of
-from typedcan.model.layout import in_bit_order
+from typedcan.model.layout import readable
 from typedcan.model.naming import member_names
+from typedcan.model.soundness import remark, with_unique_names
 from typedcan.wire.binding import fields_of, selected_of
 from typedcan.wire.decoding import decoder_of
 from typedcan.wire.fields import Field
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, bind
 
+_LOG = logging.getLogger(__name__)
+
 
 def typed_protocol(protocol: model.Protocol) -> Protocol:
     """The protocol with message classes and enums made of it, as `dbcspec generate` would.
 
-    The names of its fields have to be names that Python can have beside each other.
+    The names of its fields have to be names that Python can have beside each other. What cannot
+    be had as it stands, such as signals outside of their message, is logged as one warning.
     """
+    if odd := remark(protocol):
+        _LOG.warning(odd)
+    protocol = with_unique_names(protocol)
     codes = {table.name: _enum(table) for table in enums(protocol.messages)}
     classes = [_message_class(message, codes) for message in protocol.messages]
     return bind(protocol, classes, {kind: decoder_of(kind) for kind in classes})
@@ -38,7 +46,7 @@ def _message_class(message: model.Message, codes: dict[str, type[IntEnum]]) -> t
     parts = fields_of(message, codes)
     selected = selected_of(message)
     fields: list[Any] = []
-    for signal in in_bit_order(message.signals):
+    for signal in readable(message):
         part = parts[signal.python_name]
         if signal.must_be_given and signal.python_name not in selected:
             fields.append((part.name, Any))
@@ -82,4 +90,4 @@ def _default(message: model.Message, signal: model.Signal, part: Field) -> objec
         return raw
     if kind is not Kind.FLOAT and raw in part.states:
         return part.states[raw]
-    return raw * part.factor + part.offset if kind in (Kind.PHYSICAL, Kind.FLOAT) else raw
+    return raw * part.factor + part.offset

@@ -10,10 +10,11 @@ import struct
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
+from fractions import Fraction
 from typing import Any
 
 from typedcan.model.acting import ActingCodes
-from typedcan.model.plain import character, integer, real_number, shown, whole_number
+from typedcan.model.plain import character, exact_number, integer, real_number, shown, whole_number
 from typedcan.model.protocol import Signal
 from typedcan.model.signal_state import SignalState
 from typedcan.wire.errors import EncodeError
@@ -127,6 +128,44 @@ class PhysicalField(Field):
         if isinstance(value, SignalState):
             return str(value)
         return f"{value:.10g} {self.unit}".rstrip()
+
+
+class ExactField(PhysicalField):
+    """A measured value of more steps, or larger whole numbers, than floats tell apart.
+
+    It holds an int where all its values are whole numbers. A float that stands for several raw
+    values is refused, as the lowest bits would be lost; a Decimal or a Fraction is exact.
+    """
+
+    __slots__ = ()
+
+    def to_raw(self, message: str, value: object) -> int:
+        """The raw value to send; raises `EncodeError`."""
+        if type(value) is SignalState:
+            return self._state(message, value)
+        number, signal, given = self._number(message, value), self.signal, exact_number(value)
+        raw = round((given - Fraction(signal.offset)) / Fraction(signal.factor))
+        least, most = signal.sendable
+        inside = min(max(raw, least), most)
+        if raw != inside and (given != number or self._physical(inside) != number):
+            raise self._refuse(message, value, self._outside(number))
+        if isinstance(value, float):
+            near = {self._physical(each): each for each in (inside - 1, inside, inside + 1)}
+            if len(near) < 3:
+                problem = f"{value!r} stands for several raw values: give a Decimal"
+                raise self._refuse(message, value, problem)
+            inside = near.get(value, inside)
+        if inside in self.states:
+            raise self._refuse(message, value, f"raw {inside} means {self.states[inside]}")
+        return inside
+
+    def _physical(self, raw: int) -> float:
+        return raw * self.factor + self.offset
+
+    def text(self, value: Value) -> str:
+        """The value with its unit, a whole number with all its digits."""
+        whole = isinstance(value, int)
+        return f"{value} {self.unit}".rstrip() if whole else PhysicalField.text(self, value)
 
 
 class FloatField(PhysicalField):

@@ -9,10 +9,13 @@ from typing import Any, ClassVar, TypeVar
 
 from typedcan.model import protocol as model
 from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
+from typedcan.model.plain import shown
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.signal_state import SignalState
+from typedcan.wire.errors import EncodeError
 from typedcan.wire.fields import (
     CharacterField,
+    ExactField,
     Field,
     FilledField,
     FloatField,
@@ -34,6 +37,7 @@ __all__ = [
     "Code7",
     "Code8",
     "Counter",
+    "ExactField",
     "Field",
     "FilledField",
     "FloatField",
@@ -86,12 +90,13 @@ class Message:
     def to_raw(self) -> dict[str, int]:
         """DBC names and raw values of the signals that are there.
 
-        Raises `EncodeError` at the first value that cannot be sent.
+        Raises `EncodeError` at the first value that cannot be sent, where a field of a selected
+        branch is not given, and where one of another branch is.
         """
         name = self.NAME
         parts: Iterable[Field] = self.FIELDS.values()
         if self.SELECTED:
-            parts = [part for part in parts if self._is_there(part.name)]
+            parts = [part for part in parts if self._is_there(part)]
         return {part.dbc_name: part.to_raw(name, getattr(self, part.name)) for part in parts}
 
     @classmethod
@@ -99,13 +104,22 @@ class Message:
         """The field of the signal of that name in the DBC file; raises `KeyError`."""
         return cls.FIELDS[cls.MODEL.signal(signal).python_name]
 
-    def _is_there(self, field: str) -> bool:
-        """Whether the selectors select a field of a branch."""
+    def _is_there(self, part: Field) -> bool:
+        """Whether the selectors select the branch of a field; raises `EncodeError` as `to_raw`."""
+        field, value = part.name, getattr(self, part.name)
         if field not in self.SELECTED:
             return True
         selector, values = self.SELECTED[field]
-        raw = self.FIELDS[selector].to_raw
-        return self._is_there(selector) and raw(self.NAME, getattr(self, selector)) in values
+        above = self.FIELDS[selector]
+        chosen = getattr(self, selector)
+        there = self._is_there(above) and above.to_raw(self.NAME, chosen) in values
+        if there and value is None and not isinstance(part, FilledField):
+            problem = f"has to be given where {selector} is {shown(chosen)}"
+            raise EncodeError(self.NAME, field, value, problem)
+        if not there and value is not None:
+            problem = f"is of another branch: {selector} is {shown(chosen)}"
+            raise EncodeError(self.NAME, field, value, problem)
+        return there
 
 
 MessageT = TypeVar("MessageT", bound=Message)

@@ -51,10 +51,7 @@ class Packer:
 
     def unpack(self, data: bytes) -> Sequence[int]:
         """The raw values in the order of the message's signals; ``data`` has its full length."""
-        raw = self._unpack(data)
-        for other in self._others:
-            raw |= other._unpack(data)  # noqa: SLF001 - of its own kind
-        values: Sequence[int] = self._pick(raw)
+        values: Sequence[int] = self._pick(self._unpack(data))
         return values
 
     def _unpack(self, data: bytes) -> dict[str, int]:
@@ -64,15 +61,29 @@ class Packer:
             raw = self._little.unpack(data[::-1])
             if self._big:
                 raw.update(self._big.unpack(data))
+        for other in self._others:
+            raw |= other._unpack(data)  # noqa: SLF001 - of its own kind
         return raw
 
     def pack(self, raw: Mapping[str, int]) -> bytes:
-        """The payload; ``raw`` has a value for every signal that is there, other bits are 0."""
+        """The payload; ``raw`` has a value for every signal that is there, other bits are 0.
+
+        Raises `ValueError` with the name of a signal whose bits another one needs otherwise.
+        """
+        data = self._pack(raw)
+        if self._others:
+            again = self._unpack(data)
+            for name, value in raw.items():
+                if again[name] != value and isinstance(value, int):
+                    raise ValueError(name)
+        return data
+
+    def _pack(self, raw: Mapping[str, int]) -> bytes:
         if self._zeros:
             raw = {**self._zeros, **raw}
         parts = [self._little.pack(raw)[::-1]] if self._little else []
         parts += [self._big.pack(raw)] if self._big else []
-        parts += [other.pack(raw) for other in self._others]
+        parts += [other._pack(raw) for other in self._others]  # noqa: SLF001 - of its own kind
         if len(parts) == 1:
             payload: bytes = parts[0]
             return payload
@@ -94,7 +105,7 @@ def _apart(signals: Sequence[Signal]) -> list[list[Signal]]:
 
 def packer_of(message: Message) -> Packer:
     """What packs all signals of a message, in the order of their bits."""
-    return Packer(layout.in_bit_order(message.signals), message.length)
+    return Packer(layout.readable(message), message.length)
 
 
 def _bits(signal: Signal) -> _Bits:
