@@ -11,11 +11,11 @@ import numpy as np
 import swapcan
 from swapcan.log_protocol import OWN
 from swapcan.messages import B2V_BattInfo2, B2V_Temp, B2V_Ucell
-from typedcan.logs.cells import CellColumns, CycleTable
 from typedcan.logs.columns import DecodedBlock
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.plan import Mode
+from typedcan.logs.transfers import CycleTable, ReadingColumns
 from typedcan.wire.message import Message, SignalState
 
 INVALID = SignalState.INVALID
@@ -97,7 +97,7 @@ def decoded(sent: Sequence[Sent], mode: Mode = Mode.PHYSICAL) -> DecodedBlock:
 
 
 def put_together(
-    sent: Sequence[Sent], columns: CellColumns, borders: Sequence[int] = ()
+    sent: Sequence[Sent], columns: ReadingColumns, borders: Sequence[int] = ()
 ) -> list[CycleTable]:
     """All tables of a log whose blocks end at these places."""
     tables: list[CycleTable] = []

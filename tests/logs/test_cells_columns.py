@@ -19,10 +19,10 @@ from logs.cell_logs import (
 )
 
 from swapcan.log_protocol import CELLS, OWN
-from typedcan.logs.cells import CellColumns, TransferError
 from typedcan.logs.columns import State
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.plan import Mode
+from typedcan.logs.transfers import ColumnsError, ReadingColumns
 
 TOLD = Sent(0.0, totals(2, 8))
 BY_CSC: dict[int, list[Reading]] = {1: [3.1, 3.2, 3.3, 3.4], 2: [3.5, 3.6, 3.7, 3.8]}
@@ -40,8 +40,8 @@ LAST = 0.006
 """Seconds from the first to the last frame of a cycle with four frames."""
 
 
-def cells(*, assume_seen: bool = True) -> CellColumns:
-    return CellColumns([CELLS], assume_seen=assume_seen)
+def cells(*, assume_seen: bool = True) -> ReadingColumns:
+    return ReadingColumns([CELLS], assume_seen=assume_seen)
 
 
 def cycles(count: int, by_csc: dict[int, list[Reading]] | None = None) -> list[Sent]:
@@ -49,7 +49,7 @@ def cycles(count: int, by_csc: dict[int, list[Reading]] | None = None) -> list[S
     return [sent for k in range(count) for sent in cycle(round(k * 0.1, 6), by_csc or BY_CSC)]
 
 
-def times(sent: list[Sent], columns: CellColumns) -> list[float]:
+def times(sent: list[Sent], columns: ReadingColumns) -> list[float]:
     return [row[2] for row in rows_of(put_together(sent, columns))]
 
 
@@ -69,7 +69,7 @@ def test_bytes_written_by_hand_become_volts_and_degrees() -> None:
         data=np.array([list(bytes.fromhex(text)) for _, text in frames], np.uint8),
         channels=(None,),
     )
-    tables = CellColumns(OWN.readings, assume_seen=False).add(decoder().decode(block).messages)
+    tables = ReadingColumns(OWN.readings, assume_seen=False).add(decoder().decode(block).messages)
     assert rows_of(tables) == [
         (
             "cells_1x4",
@@ -196,11 +196,11 @@ def test_it_makes_no_difference_where_blocks_end(border: int) -> None:
 
 
 def test_raw_values_and_missing_signals_are_refused() -> None:
-    with pytest.raises(TransferError, match="physical values"):
+    with pytest.raises(ColumnsError, match="physical values"):
         cells().add(decoded([TOLD, *cycles(1)], Mode.RAW).messages)
     block = decoded([TOLD, *cycles(1)])
     del block.messages["B2V_Ucell"].columns["B2V_UC_CSCNo"]
-    with pytest.raises(TransferError, match="B2V_UC_CSCNo"):
+    with pytest.raises(ColumnsError, match="B2V_UC_CSCNo"):
         cells().add(block.messages)
 
 
@@ -210,6 +210,6 @@ def test_probes_come_six_a_frame() -> None:
         Sent(0.1, temp(1, 1, 20, 21, 22, 23, 24, 25)),
         Sent(0.11, temp(1, 2, 26)),
     ]
-    found = rows_of(put_together(sent, CellColumns(OWN.readings)))
+    found = rows_of(put_together(sent, ReadingColumns(OWN.readings)))
     readings = {f"probe_1_{n}": 19.0 + n for n in range(1, 8)}
     assert found == [("probes_1x7", "can0", 0.11, readings)]

@@ -12,7 +12,7 @@ from logs.cell_logs import INVALID, Reading, Sent, put_together, totals, ucell
 
 from swapcan.log_protocol import CELLS
 from swapcan.messages import B2V_BattInfo2
-from typedcan.logs.cells import CellColumns, CycleCounts
+from typedcan.logs.transfers import CycleCounts, ReadingColumns
 from typedcan.wire.message import SignalState
 
 transfer: Any = pytest.importorskip(
@@ -85,7 +85,7 @@ def live(sent: list[Sent]) -> tuple[Rows, list[str]]:
 
 
 def from_log(sent: list[Sent], borders: list[int]) -> tuple[Rows, CycleCounts]:
-    columns = CellColumns([CELLS], assume_seen=False)
+    columns = ReadingColumns([CELLS], assume_seen=False)
     rows: Rows = [
         (time, list(table.positions), [None if v != v else round(v, 3) for v in values])
         for table in put_together(sent, columns, borders)

@@ -10,9 +10,9 @@ import pyarrow as pa
 import pytest
 from logs.decode_databases import Frame, block_of
 
-from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.decode import Decoder
 from typedcan.logs.protocol import known
+from typedcan.logs.transfers.tables import TransferTables
 from typedcan.model.protocol import Message, Protocol, Signal
 from typedcan.model.transfer import Numbering, Transfer
 

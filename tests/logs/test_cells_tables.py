@@ -10,8 +10,8 @@ from logs.cell_logs import INVALID, Reading, Sent, cycle, decoded, totals
 
 import swapcan
 from swapcan.log_protocol import OWN
-from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.pipeline import Options
+from typedcan.logs.transfers.tables import TransferTables
 
 TOLD = Sent(0.0, totals(2, 4))
 WHOLE: dict[int, list[Reading]] = {1: [3.1, 3.2], 2: [3.3, 3.4]}

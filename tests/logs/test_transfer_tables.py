@@ -20,10 +20,10 @@ from swapcan.messages import Manufacturer
 from swapcan.transfer import split_pack_code, split_vin
 from swapcan.wire import Codec as OwnCodec
 from typedcan.__main__ import main as typedcan
-from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.convert import convert_logs
 from typedcan.logs.pipeline import Options
 from typedcan.logs.protocol import known
+from typedcan.logs.transfers.tables import TransferTables
 from typedcan.transfer import Blocks, Text, split
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message

@@ -15,12 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from transfer.rack import rack
 
-from typedcan.logs.cells import CellColumns, CycleCounts
-from typedcan.logs.cells.values import ValueColumns
 from typedcan.logs.columns import MessageColumns
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.protocol import known
+from typedcan.logs.transfers import CycleCounts, ReadingColumns
+from typedcan.logs.transfers.values import ValueColumns
 from typedcan.transfer import Assembler, Blocks, Problem, Readings, Text, split
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message, SignalState
@@ -166,7 +166,9 @@ def test_readings_and_what_is_wrong_with_them(name: str, seed: int, size: int) -
     sent = rough(name, random.Random(seed))
     expected = live(name, sent)
     kinds = [each.kind for each in expected if isinstance(each, Problem)]
-    columns = CellColumns([each for each in LOG.readings if each.name == name], assume_seen=False)
+    columns = ReadingColumns(
+        [each for each in LOG.readings if each.name == name], assume_seen=False
+    )
     tables = [table for block in blocks(sent, size) for table in columns.add(block)]
     tables += columns.finish()
     found = [

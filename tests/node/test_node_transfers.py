@@ -13,9 +13,10 @@ from transfer.rack import DOCS, project, rack
 
 from typedcan.model.transfers.blocks import NumberedBlocks
 from typedcan.node.clock import SimulatedClock
-from typedcan.node.errors import RequestError, TransferError
+from typedcan.node.errors import RequestError
 from typedcan.node.node import Node
 from typedcan.transfer import Blocks, Problem, Readings, Text, Transfers, split
+from typedcan.transfer.errors import TransferError
 from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.message import Message
 

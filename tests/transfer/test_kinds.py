@@ -17,8 +17,8 @@ from typedcan.transfer import (
     Transfers,
     split,
 )
+from typedcan.transfer.errors import TransferError
 from typedcan.wire.codec import Codec
-from typedcan.wire.errors import TransferError
 from typedcan.wire.message import Message, SignalState
 
 INVALID = SignalState.INVALID

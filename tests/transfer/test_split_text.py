@@ -9,7 +9,7 @@ from transfer.wire import payloads
 
 from swapcan.messages import Manufacturer
 from swapcan.transfer import split_pack_code, split_vin
-from typedcan.wire.errors import TransferError
+from typedcan.transfer.errors import TransferError
 
 VIN = "1M8GDM9AXKP042788"
 CODE = "04QPE4C8J4K5L6M7N8P9R0S1"

@@ -11,7 +11,7 @@ from typing import Any
 # The names, with their types, stand in __init__.pyi too.
 _HOMES = {
     "BatchError": "typedcan.logs.batch",
-    "TransferTables": "typedcan.logs.cells.arrow",
+    "TransferTables": "typedcan.logs.transfers.tables",
     "Damage": "typedcan.logs.read",
     "DamagedLogError": "typedcan.logs.batch",
     "FRAME_SCHEMA": "typedcan.logs.batch",

@@ -1,6 +1,5 @@
 from swapcan.log_tables import convert_logs, decode_batch, schemas, tables
 from typedcan.logs.batch import FRAME_SCHEMA, BatchError, DamagedLogError, frame_batches
-from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress
@@ -8,6 +7,7 @@ from typedcan.logs.raster import raster_step
 from typedcan.logs.read import Damage, LogError, LogSource, open_log
 from typedcan.logs.shapes import Shape
 from typedcan.logs.summary import Summary
+from typedcan.logs.transfers.tables import TransferTables
 from typedcan.logs.window import moment
 from typedcan.logs.write.target import Target
 

@@ -15,7 +15,7 @@ from swapcan.messages import (
 )
 from swapcan.transfer.vin import vin_problem
 from typedcan.transfer import Assembler, Problem, Text, split
-from typedcan.wire.errors import TransferError
+from typedcan.transfer.errors import TransferError
 from typedcan.wire.protocol import Transfer
 
 VIN = PROTOCOL.transfer("vin")

@@ -9,12 +9,12 @@ from pathlib import Path
 
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool, dbc_of
-from typedcan.logs.cells.arrow import TransferTables
 from typedcan.logs.convert import convert_logs
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress
 from typedcan.logs.raster import raster_step
+from typedcan.logs.transfers.tables import TransferTables
 from typedcan.logs.window import moment
 from typedcan.shell.console import CommandError, note, say
 from typedcan.shell.printing import printable_json

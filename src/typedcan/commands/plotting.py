@@ -8,11 +8,11 @@ from pathlib import Path
 
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool
-from typedcan.logs.grouped import Readings
 from typedcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
 from typedcan.logs.plot.html import notes
 from typedcan.logs.progress import Progress
 from typedcan.logs.protocol import Protocol
+from typedcan.logs.transfers.readings import Readings
 from typedcan.logs.window import Moment, moment
 from typedcan.model.plain import shown
 from typedcan.shell.console import CommandError, note

@@ -10,7 +10,7 @@ from typedcan.judge.measure.left_over import LeftOver
 from typedcan.judge.measure.presence import Presence, Silence
 from typedcan.judge.measure.steps import Stopped, Timing
 from typedcan.judge.measure.traffic import Traffic
-from typedcan.logs.cells.cycles import CycleTable
+from typedcan.logs.transfers.cycles import CycleTable
 from typedcan.wire.message import Message
 
 

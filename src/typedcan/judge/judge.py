@@ -25,7 +25,6 @@ from typedcan.judge.rule import Rule
 from typedcan.judge.rules import rules_for
 from typedcan.judge.series import Series
 from typedcan.logs import protocol as logs
-from typedcan.logs.cells.cycles import CellColumns, CycleTable
 from typedcan.logs.checks import rows_where
 from typedcan.logs.checksums import checksums_right, has_checksum
 from typedcan.logs.columns import MessageColumns
@@ -33,6 +32,7 @@ from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.plan import Mode
 from typedcan.logs.protocol import known as known_protocol
+from typedcan.logs.transfers.cycles import CycleTable, ReadingColumns
 from typedcan.model.errors import TypedcanError
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
@@ -202,7 +202,7 @@ class _Readings:
             name for each in protocol.readings for name in (each.message, each.totals)
         )
         self._decoder = Decoder(protocol.messages, reserved=protocol.reserved, wanted=wanted)
-        self._columns = CellColumns(protocol.readings)
+        self._columns = ReadingColumns(protocol.readings)
 
     def cycles(
         self, block: FrameBlock, channels: Mapping[str, int | str | None]

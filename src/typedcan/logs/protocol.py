@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from typedcan.logs.columns import State
-from typedcan.logs.grouped import Readings, readings_of, values_of
 from typedcan.logs.plan import Reserved
+from typedcan.logs.transfers.readings import Readings, readings_of, values_of
 from typedcan.model import protocol as model
 from typedcan.model.layout import in_bit_order
 from typedcan.model.transfers.parts import Parts

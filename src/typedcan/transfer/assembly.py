@@ -14,7 +14,7 @@ from typedcan.model.transfers.parts import Part
 from typedcan.model.transfers.reading_rules import Readings
 from typedcan.model.transfers.registry import KINDS, problems
 from typedcan.model.transfers.text import Text
-from typedcan.wire.errors import TransferError
+from typedcan.transfer.errors import TransferError
 from typedcan.wire.message import CharacterField, Message
 from typedcan.wire.protocol import Protocol, Transfer
 

@@ -10,7 +10,8 @@ from typedcan.model.transfers import text
 from typedcan.model.transfers.kind import Frame, SplitError
 from typedcan.model.transfers.registry import KINDS
 from typedcan.model.transfers.set_frames import slots_of
-from typedcan.wire.errors import EncodeError, TransferError
+from typedcan.transfer.errors import TransferError
+from typedcan.wire.errors import EncodeError
 from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protocol import Transfer
 

@@ -85,12 +85,3 @@ class DatabaseError(TypedcanError):
 
 class SendingError(TypedcanError, ValueError):
     """A message that a node may not send, or cannot send in the way it was asked to."""
-
-
-class TransferError(TypedcanError, ValueError):
-    """A value cannot be split into frames: ``transfer`` names it, ``problem`` says why."""
-
-    def __init__(self, transfer: str, problem: str) -> None:
-        self.transfer = transfer
-        self.problem = problem
-        super().__init__(f"{transfer}: {problem}")

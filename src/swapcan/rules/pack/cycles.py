@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk
-from typedcan.logs.cells.cycles import CycleTable
 from typedcan.logs.columns import State
-from typedcan.logs.grouped import Readings
+from typedcan.logs.transfers.cycles import CycleTable
+from typedcan.logs.transfers.readings import Readings
 
 Numbers = NDArray[np.float64]
 

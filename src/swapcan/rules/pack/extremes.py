@@ -17,7 +17,7 @@ from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Watcher
 from typedcan.judge.tolerance import Tolerance
-from typedcan.logs.grouped import Readings
+from typedcan.logs.transfers.readings import Readings
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
 

@@ -13,8 +13,8 @@ from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.tolerance import Tolerance
-from typedcan.logs.cells.cycles import CycleTable
 from typedcan.logs.columns import State
+from typedcan.logs.transfers.cycles import CycleTable
 from typedcan.report.language import Text
 
 SECONDS = Tolerance(

@@ -19,12 +19,14 @@ from typedcan.judge.measure.asked import Asked, requests_of
 from typedcan.judge.measure.presence import Presences, Silence, Start
 from typedcan.judge.measure.spread import Spread, spread_of
 from typedcan.judge.series import Series
-from typedcan.logs.grouped import KEY_BITS
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef, Protocol
 
 _REQUEST_ENDS = 3.0
 """Periods after which a message that is sent on request is taken to be requested anew."""
+
+_KEY_BITS = 8
+"""Bits of a group, and of a frame number, of which `key_of` makes one number."""
 
 
 def keyed(protocol: Protocol) -> dict[type[Message], tuple[str, str]]:
@@ -38,7 +40,7 @@ def keyed(protocol: Protocol) -> dict[type[Message], tuple[str, str]]:
 
 
 def _is_byte(ref: FieldRef) -> bool:
-    return ref.message.FIELDS[ref.field].length <= KEY_BITS
+    return ref.message.FIELDS[ref.field].length <= _KEY_BITS
 
 
 class Steps:

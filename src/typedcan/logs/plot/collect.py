@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from typedcan.logs.cells import CellColumns, CycleCounts, CycleTable, Readings
 from typedcan.logs.checks import Checks, taken
 from typedcan.logs.columns import MessageColumns, SignalInfo
 from typedcan.logs.decode import Decoder
@@ -20,6 +19,7 @@ from typedcan.logs.plot.names import SignalName
 from typedcan.logs.plot.track import Track
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.read import LogSource, open_log
+from typedcan.logs.transfers import CycleCounts, CycleTable, ReadingColumns, Readings
 from typedcan.logs.window import Moment, within
 from typedcan.shell.printing import printable
 
@@ -160,7 +160,7 @@ class _Collection:
         self._tracks: dict[SignalName, dict[Channel, Track]] = {
             name: {} for name in request.signals
         }
-        self._cells = CellColumns(request.readings)
+        self._cells = ReadingColumns(request.readings)
         self._maps: dict[tuple[str, Channel], HeatMap] = {}
         self._readings: dict[tuple[str, Channel], Readings] = {}
         self._steps: dict[str, float] = {}

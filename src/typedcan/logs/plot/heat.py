@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.logs.cells import CycleTable, Readings
 from typedcan.logs.plot.model import GAP_PERIODS, Heat
 from typedcan.logs.plot.thin import column_length
+from typedcan.logs.transfers import CycleTable, Readings
 
 _COLUMNS = 1024
 _MOST = 4 * _COLUMNS

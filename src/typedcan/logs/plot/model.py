@@ -9,8 +9,8 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.logs.cells import CycleCounts
 from typedcan.logs.read import Damage
+from typedcan.logs.transfers import CycleCounts
 
 GAP_PERIODS = 5
 """More than so many periods without a frame are a gap."""

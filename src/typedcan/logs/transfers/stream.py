@@ -9,9 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.logs.cells.assembly import Assembly, Complete, CycleCounts
-from typedcan.logs.cells.readings import ReadingFrames, no_frames
-from typedcan.logs.grouped import Readings
+from typedcan.logs.transfers.assembly import Assembly, Complete, CycleCounts
+from typedcan.logs.transfers.readings import ReadingFrames, Readings, no_frames
 from typedcan.model.transfer import Numbering
 from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, frames_in
 from typedcan.model.transfers.reading_rules import shape_of, totals_of

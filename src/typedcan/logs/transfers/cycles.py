@@ -10,11 +10,10 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.logs.cells.assembly import CycleCounts
-from typedcan.logs.cells.readings import TransferError, frames_of
-from typedcan.logs.cells.stream import Cycles, Layout, Stream
 from typedcan.logs.columns import Column, MessageColumns
-from typedcan.logs.grouped import Readings
+from typedcan.logs.transfers.assembly import CycleCounts
+from typedcan.logs.transfers.readings import ColumnsError, Readings, frames_of
+from typedcan.logs.transfers.stream import Cycles, Layout, Stream
 
 Channel = int | str | None
 
@@ -63,7 +62,7 @@ class CycleTable:
         return len(self.timestamp)
 
 
-class CellColumns:
+class ReadingColumns:
     """Takes the decoded blocks of one log in their order; the package says by what rules.
 
     Parameters
@@ -91,7 +90,7 @@ class CellColumns:
 
         Raises
         ------
-        TransferError
+        ColumnsError
             A signal was not decoded, or to raw values.
         """
         tables: list[CycleTable] = []
@@ -137,7 +136,7 @@ class CellColumns:
             return []
         for name in readings.told:
             if name not in columns.columns:
-                raise TransferError(f"{readings.name} need the totals: decode {name}")
+                raise ColumnsError(f"{readings.name} need the totals: decode {name}")
         own = on_channel(columns, channel)
         told = np.stack([_told(columns.columns[name], own) for name in readings.told])
         new = np.ones(told.shape[1], np.bool_)

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.logs.cells.cycles import Channel, channels_of, on_channel
-from typedcan.logs.cells.readings import TransferError
 from typedcan.logs.columns import Column, MessageColumns, State
+from typedcan.logs.transfers.cycles import Channel, channels_of, on_channel
+from typedcan.logs.transfers.readings import ColumnsError
 from typedcan.model.signal_state import SignalState
 from typedcan.model.transfers.kind import Problem, Rules
 from typedcan.model.transfers.parts import Part, Parts
@@ -56,7 +56,7 @@ class ValueColumns:
 
         Raises
         ------
-        TransferError
+        ColumnsError
             A signal was not decoded, or to raw values.
         """
         for parts, wanted in zip(self._transfers, self._wanted, strict=True):
@@ -105,7 +105,7 @@ def _frames(
         own = on_channel(columns, channel)
         for part in wanted[columns.name]:
             if part.signal.name not in columns.columns:
-                raise TransferError(f"{columns.name}: decode {part.signal.name} too")
+                raise ColumnsError(f"{columns.name}: decode {part.signal.name} too")
         held = (columns.columns[part.signal.name] for part in wanted[columns.name])
         values = zip(*(_values(column, own) for column in held), strict=True)
         rows, times = columns.rows[own].tolist(), columns.timestamp[own].tolist()
@@ -118,7 +118,7 @@ def _frames(
 def _values(column: Column, own: slice | NDArray[np.int64]) -> list[Any]:
     """What a signal holds: numbers, states, None where a frame has it not."""
     if not column.signal.scaled:
-        raise TransferError(f"{column.signal.name}: values are made of physical ones, not of raw")
+        raise ColumnsError(f"{column.signal.name}: values are made of physical ones, not of raw")
     values: list[Any] = column.values[own].tolist()
     if column.valid is not None:
         state = np.zeros(len(column.values), np.uint8) if column.state is None else column.state

@@ -19,12 +19,12 @@ from typedcan.logs.arrow import (
     from_numpy,
     metadata_of,
 )
-from typedcan.logs.cells.assembly import CycleCounts
-from typedcan.logs.cells.cycles import CellColumns, CycleTable
-from typedcan.logs.cells.values import Complete, ValueColumns
 from typedcan.logs.columns import DecodedBlock, State
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.shapes import Batch, Shape
+from typedcan.logs.transfers.assembly import CycleCounts
+from typedcan.logs.transfers.cycles import CycleTable, ReadingColumns
+from typedcan.logs.transfers.values import Complete, ValueColumns
 from typedcan.model.transfers.kind import MOST_ITEMS, Problem
 from typedcan.model.transfers.parts import Parts, field_of
 from typedcan.model.transfers.registry import KINDS
@@ -52,12 +52,12 @@ class TransferTables(Shape):
     protocol
         What the log is decoded by, to physical values.
     assume_seen
-        As `CellColumns` has it.
+        As `ReadingColumns` has it.
     """
 
     def __init__(self, protocol: Protocol, *, assume_seen: bool = True) -> None:
         self._protocol = protocol
-        self._columns = CellColumns(protocol.readings, assume_seen=assume_seen)
+        self._columns = ReadingColumns(protocol.readings, assume_seen=assume_seen)
         self._values = ValueColumns(protocol.values)
         self._tables = {each.transfer.name: ValueTable(protocol, each) for each in protocol.values}
         self._schemas: dict[str, pa.Schema] = {}
@@ -80,7 +80,7 @@ class TransferTables(Shape):
         return self._values.problems
 
     def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
-        """What is complete with the block; raises `TransferError`."""
+        """What is complete with the block; raises `ColumnsError`."""
         yield from self._batches(self._columns.add(decoded.messages))
         found: dict[str, list[Complete]] = {}
         for each in self._values.add(decoded.messages):

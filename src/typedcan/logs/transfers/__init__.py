@@ -11,9 +11,8 @@ first two seconds: the frames that came at least half as often as the most frequ
 each CSC the cells up to the last that had a value. With ``assume_seen=False`` nothing is assumed.
 """
 
-from typedcan.logs.cells.assembly import CycleCounts
-from typedcan.logs.cells.cycles import CellColumns, CycleTable
-from typedcan.logs.cells.readings import TransferError
-from typedcan.logs.grouped import Readings
+from typedcan.logs.transfers.assembly import CycleCounts
+from typedcan.logs.transfers.cycles import CycleTable, ReadingColumns
+from typedcan.logs.transfers.readings import ColumnsError, Readings
 
-__all__ = ["CellColumns", "CycleCounts", "CycleTable", "Readings", "TransferError"]
+__all__ = ["ColumnsError", "CycleCounts", "CycleTable", "ReadingColumns", "Readings"]
