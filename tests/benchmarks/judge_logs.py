@@ -85,10 +85,10 @@ class _Timed(Watcher):
         self._id = rule.id
         self._spent = spent
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Let the rule judge."""
         begin = time.process_time()
-        self._watcher.take(chunk)
+        self._watcher.feed(chunk)
         self._spent[self._id] += time.process_time() - begin
 
     def finish(self, end: LogEnd) -> None:
@@ -115,7 +115,7 @@ def main() -> None:
             begin = time.process_time()
             decoder.decode(block)
             middle = time.process_time()
-            judge.take(block)
+            judge.feed(block)
             judging += time.process_time() - middle
             decoding += middle - begin
         begin = time.process_time()
@@ -134,7 +134,7 @@ def _each_rule(once: FrameBlock, frames: int) -> None:
     rules = [replace(rule, watch=partial(_Timed, rule, spent)) for rule in RULES]
     judge = Judge(rules=rules)
     for block in repeated(once, frames):
-        judge.take(block)
+        judge.feed(block)
     print(f"  ns a frame    {'total':<28}{sum(spent.values()) / frames * 1e9:8.1f}")
     for rule_id, seconds in sorted(spent.items(), key=lambda item: -item[1])[:15]:
         print(f"                {rule_id:<28}{seconds / frames * 1e9:8.1f}")

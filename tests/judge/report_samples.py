@@ -41,7 +41,7 @@ HOSTILE = (
 
 
 class _Idle(Watcher):
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge nothing."""
 
 

@@ -94,7 +94,7 @@ def drive(seconds: float = 20.0) -> Frames:
 
 def judged(protocol: Protocol, frames: Iterable[can.Message]) -> Judgement:
     judge = Judge(protocol)
-    judge.take(block_of(sorted(frames, key=lambda each: each.timestamp)))
+    judge.feed(block_of(sorted(frames, key=lambda each: each.timestamp)))
     return judge.finish()
 
 

@@ -39,7 +39,7 @@ SOC = Text("SOC is {soc}", "SOC 为 {soc}")
 class SocIsEven(Watcher):
     """A rule of no standard: raw SOC is even."""
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the frames of B2V_ST2."""
         series = chunk.sound(B2V_ST2)
         soc = series.raw("soc")
@@ -84,7 +84,7 @@ def judged(
     judge = Judge(rules=rules)
     with open_log(written(frames, folder / "case.log"), size) as log:
         for block in log:
-            judge.take(block)
+            judge.feed(block)
     return judge.finish()
 
 
@@ -168,7 +168,7 @@ class Latest(Watcher):
 
     found: list[int]
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Look back from each new row."""
         at, of = chunk.sound(B2V_ST1), chunk.sound(B2V_ST0)
         places = latest(of, at)[at.first :]
@@ -255,7 +255,7 @@ def test_a_log_whose_times_are_of_day_is_judged_as_one_that_begins_at_zero(tmp_p
 
 def test_an_empty_log_could_not_be_judged() -> None:
     judge = Judge()
-    judge.take(
+    judge.feed(
         FrameBlock(
             np.empty(0),
             np.empty(0, np.uint32),

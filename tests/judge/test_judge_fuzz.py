@@ -26,7 +26,7 @@ def judged(block: FrameBlock, *bounds: int) -> Judgement:
     judge = Judge()
     edges = [0, *bounds, len(block)]
     for begin, end in pairwise(edges):
-        judge.take(rows_of(block, slice(begin, end)))
+        judge.feed(rows_of(block, slice(begin, end)))
     return judge.finish("fuzz.log")
 
 

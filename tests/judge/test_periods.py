@@ -28,7 +28,7 @@ def measured(frames: list[can.Message], path: Path, block: int = 100_000) -> lis
     judge = Judge(rules=[])
     with open_log(log, block) as source:
         for each in source:
-            judge.take(each)
+            judge.feed(each)
     return list(judge.finish().periods)
 
 

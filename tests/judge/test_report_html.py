@@ -25,7 +25,7 @@ from judge.report_samples import (
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judgement, Severity, Tolerance
 from typedcan.judge.report import Moment, to_html
-from typedcan.judge.report.allowed import EXTRA, LEAST, MOST
+from typedcan.judge.report.facts import EXTRA, LEAST, MOST
 from typedcan.report.language import Text
 
 ENVIRONMENT = {"swapcan": "1.2.3", "Python": "<3.11>"}

@@ -28,7 +28,7 @@ def judged(
     judge = Judge(nodes, rules, limits)
     with open_log(log, size) as source:
         for block in source:
-            judge.take(block)
+            judge.feed(block)
         assert source.damage is None
     return judge.finish()
 
@@ -43,7 +43,7 @@ def result_of(
 def judged_by_all(frames: Iterable[can.Message]) -> Judgement:
     """What all rules say of frames."""
     judge = Judge()
-    judge.take(block_of(frames))
+    judge.feed(block_of(frames))
     return judge.finish()
 
 

@@ -70,7 +70,7 @@ def in_blocks(log: Path, size: int) -> Judgement:
     judge = Judge(rules=TIMING)
     with open_log(log, size) as source:
         for block in source:
-            judge.take(block)
+            judge.feed(block)
     return judge.finish()
 
 

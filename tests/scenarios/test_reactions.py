@@ -274,7 +274,7 @@ def test_where_a_record_is_cut_does_not_matter(case: str, size: int, tmp_path: P
     judge = Judge(["BMU"], [rule])
     with open_log(path, size) as source:
         for block in source:
-            judge.take(block)
+            judge.feed(block)
     assert judge.finish().result(rule.id).occurrences == whole.result(rule.id).occurrences
 
 

@@ -16,7 +16,7 @@ from swapcan.messages import (
     B2V_Temp,
     B2V_Ucell,
 )
-from swapcan.rules import charging, cooling, pack, texts, told, voltage
+from swapcan.rules import charging, cooling, notices, pack, texts, voltage
 from swapcan.rules.voltage import node_silence, relays_before_command, start_state
 from swapcan.rules.wording import worded
 from typedcan.judge.rule import Rule
@@ -72,7 +72,7 @@ RULES: tuple[Rule, ...] = (
     *voltage.RULES,
     *charging.RULES,
     *cooling.RULES,
-    *told.RULES,
+    *notices.RULES,
 )
 """Every rule once, in the order in which reports list them."""
 

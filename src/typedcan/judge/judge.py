@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.judge.before import Before
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.decoded import DecodedChunk
 from typedcan.judge.findings import Findings
@@ -23,7 +22,7 @@ from typedcan.judge.measure.steps import StepMeter
 from typedcan.judge.measure.traffic import Traffic
 from typedcan.judge.rule import Rule
 from typedcan.judge.rules import rules_for
-from typedcan.judge.series import Series
+from typedcan.judge.series import Before, Series
 from typedcan.logs import protocol as logs
 from typedcan.logs.checks import rows_where
 from typedcan.logs.checksums import checksums_right, has_checksum
@@ -102,7 +101,7 @@ class Judge:
         self._orders = 0
         self._counts: Counter[str] = Counter()
 
-    def take(self, block: FrameBlock) -> None:
+    def feed(self, block: FrameBlock) -> None:
         """Judge the next frames."""
         if not len(block):
             return
@@ -111,7 +110,7 @@ class Judge:
         self._end = max(self._end, float(block.timestamp.max()) - self._begin)
         chunk = self._measured(self._decoded(block, self._begin))
         for watcher in self._watchers:
-            watcher.take(chunk)
+            watcher.feed(chunk)
         self._orders += len(block)
 
     def finish(self, log: str = "", digest: str = "", damage: Iterable[str] = ()) -> Judgement:
@@ -163,10 +162,10 @@ class Judge:
 
     def _measured(self, chunk: DecodedChunk) -> Chunk:
         """The chunk with what rules need to know of it, measured once for all of them."""
-        timing = self._steps.take(chunk)
-        self._traffic.take(chunk)
-        self._load.take(chunk)
-        self._periods.take(timing)
+        timing = self._steps.feed(chunk)
+        self._traffic.feed(chunk)
+        self._load.feed(chunk)
+        self._periods.feed(timing)
         return Chunk(
             chunk,
             timing=timing,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Said, Subject
-from typedcan.judge.measure.beside import fresh
+from typedcan.judge.measure.last_known import fresh_for
 from typedcan.judge.rule import Watcher
 from typedcan.judge.series import Series
 from typedcan.report.language import Text
@@ -62,7 +62,7 @@ class Lasting:
         """Whether it was wrong at the last frame."""
         return self._run is not None
 
-    def take(
+    def feed(
         self,
         series: Series,
         judged: NDArray[np.bool_] | None,
@@ -164,7 +164,7 @@ class LastingWatcher(Watcher):
 
     def lasting(self, subject: Subject, longest: float | None, message: type[Message]) -> Lasting:
         """What goes over the frames of a message, and is ended with the log; see `Lasting`."""
-        made = Lasting(self.findings, subject, longest, fresh(message))
+        made = Lasting(self.findings, subject, longest, fresh_for(message))
         self._all.append(made)
         return made
 

@@ -45,7 +45,7 @@ def judge_log(
     frames = 0
     with open_log(path, _BLOCK) as source:
         for block in within(source, start, end):
-            judge.take(block)
+            judge.feed(block)
             frames += len(block)
             if watch:
                 watch(source.position, frames)

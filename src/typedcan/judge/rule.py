@@ -39,7 +39,7 @@ class Watcher(ABC):
         self.findings = findings
 
     @abstractmethod
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames; what a chunk holds is not to be kept."""
 
     def finish(self, end: LogEnd) -> None:  # noqa: B027  (most rules have nothing left)

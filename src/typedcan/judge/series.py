@@ -2,15 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.judge.before import Before
 from typedcan.logs.columns import MessageColumns
 from typedcan.wire.message import Message
+
+
+@dataclass(frozen=True, slots=True)
+class Before:
+    """The last frame of a message in what was judged before.
+
+    Seconds since the log's begin, number in the log, raw values by field, bytes.
+    """
+
+    time: float
+    order: int
+    raw: Mapping[str, int]
+    payload: NDArray[np.uint8]
 
 
 class Series:

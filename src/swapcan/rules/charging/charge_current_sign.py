@@ -10,7 +10,7 @@ from swapcan.messages import B2V_ST1, B2V_ST2, BmsState, C2B_ACStatus, ChargeSta
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.measure.since import last
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
@@ -62,11 +62,11 @@ class ChargeCurrentSign(LastingWatcher):
         self._drawn = math.nan  # A, before the pack charged
         self._positive = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST2)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the current while the pack charges."""
         series = chunk.sound(B2V_ST2)
-        state = Beside(chunk.sound(B2V_ST1), series)
-        charger = Beside(chunk.sound(C2B_ACStatus), series, _CHARGER_COUNTS)
+        state = LastKnown(chunk.sound(B2V_ST1), series)
+        charger = LastKnown(chunk.sound(C2B_ACStatus), series, _CHARGER_COUNTS)
         current = series.value("current")
         given = np.where(charger.known, charger.value("current_output"), -1.0)
         can_draw = state.raw("bms") != BmsState.HV_OPEN
@@ -85,7 +85,7 @@ class ChargeCurrentSign(LastingWatcher):
             return _POSITIVE, {"current": float(current[row])}
 
         excess = current - self._current
-        self._positive.take(series, judged, excess > 0, describe, excess)
+        self._positive.feed(series, judged, excess > 0, describe, excess)
 
 
 RULE = Rule(

@@ -24,12 +24,12 @@ class ChargeLineConnected(LastingWatcher):
         super().__init__(findings)
         self._without = self.lasting(_SUBJECT, None, B2V_ST1)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the connection while the pack charges."""
         states = chunk.sound(B2V_ST1)
         charging = states.raw("chg_st") == ChargeState.CHARGING
         apart = states.raw("chg_line") == ChargeLine.NOT_CONNECTED
-        self._without.take(states, charging, apart, _describe)
+        self._without.feed(states, charging, apart, _describe)
 
 
 def _describe(_: int) -> Said:

@@ -8,7 +8,7 @@ from swapcan.messages import B2V_ST1, B2C_Charger, C2B_ACStatus, ChargeControl, 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -47,17 +47,17 @@ class ChargeStopsOnFault(LastingWatcher):
             for field in _FAULTS
         }
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge charging under each fault; what the BMU does not say in either message is not."""
         series = chunk.sound(C2B_ACStatus)
-        state = Beside(chunk.sound(B2V_ST1), series)
-        order = Beside(chunk.sound(B2C_Charger), series)
+        state = LastKnown(chunk.sound(B2V_ST1), series)
+        order = LastKnown(chunk.sound(B2C_Charger), series)
         ended = state.known & (state.raw("chg_st") != ChargeState.CHARGING)
         ended |= order.known & (order.raw("charge_control") != ChargeControl.START_TO_CHARGE)
         known = state.known | order.known
         for field, goes_on in self._goes_on.items():
             judged = known & (series.raw(field) == 1)
-            goes_on.take(series, judged, ~ended, partial(_describe, field))
+            goes_on.feed(series, judged, ~ended, partial(_describe, field))
 
 
 def _describe(field: str, _: int) -> Said:

@@ -6,7 +6,7 @@ from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -43,10 +43,10 @@ class ChargerStops(LastingWatcher):
         self._current = findings.limit(_CURRENT)
         self._gives = self.lasting(_SUBJECT, findings.limit(_SECONDS), C2B_ACStatus)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the current under a stop."""
         series = chunk.sound(C2B_ACStatus)
-        order = Beside(chunk.sound(B2C_Charger), series)
+        order = LastKnown(chunk.sound(B2C_Charger), series)
         judged = order.is_code("charge_control", ChargeControl.NORMAL_STOP_TO_CHARGE)
         judged |= order.is_code("charge_control", ChargeControl.FAULT_STOP_TO_CHARGE)
         current = series.value("current_output")
@@ -54,7 +54,7 @@ class ChargerStops(LastingWatcher):
         def describe(row: int) -> Said:
             return _GIVES, {"current": float(current[row])}
 
-        self._gives.take(series, judged, current >= self._current, describe, current)
+        self._gives.feed(series, judged, current >= self._current, describe, current)
 
 
 RULE = Rule(

@@ -10,7 +10,7 @@ from swapcan.messages import B2C_Charger, C2B_ACStatus, ChargeControl
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
 
@@ -75,10 +75,10 @@ class OverSet(LastingWatcher):
         subject = Subject("CHG", "C2B_ACStatus", signal)
         self._over = self.lasting(subject, findings.limit(slack.seconds), C2B_ACStatus)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the output while charging is asked for."""
         series = chunk.sound(C2B_ACStatus)
-        order = Beside(chunk.sound(B2C_Charger), series)
+        order = LastKnown(chunk.sound(B2C_Charger), series)
         given, wanted = series.value(self._given), order.value(self._set)
         excess = given - wanted * (1 + self._share) - self._more
         judged = order.is_code("charge_control", ChargeControl.START_TO_CHARGE)
@@ -86,4 +86,4 @@ class OverSet(LastingWatcher):
         def describe(row: int) -> Said:
             return self._text, {"given": float(given[row]), "set": float(wanted[row])}
 
-        self._over.take(series, judged & ~np.isnan(excess), excess > 0, describe, excess)
+        self._over.feed(series, judged & ~np.isnan(excess), excess > 0, describe, excess)

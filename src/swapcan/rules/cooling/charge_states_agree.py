@@ -6,7 +6,7 @@ from swapcan.messages import B2V_ST1, BMS_TMS_0
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -36,10 +36,10 @@ class ChargeStatesAgree(LastingWatcher):
         super().__init__(findings)
         self._differs = self.lasting(_SUBJECT, findings.limit(_SECONDS), BMS_TMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the charging states."""
         series = chunk.sound(BMS_TMS_0)
-        state = Beside(chunk.sound(B2V_ST1), series)
+        state = LastKnown(chunk.sound(B2V_ST1), series)
         cooling, truck = series.raw("chrg_sts"), state.raw("chg_st")
         labels = B2V_ST1.FIELDS["chg_st"].labels
 
@@ -47,7 +47,7 @@ class ChargeStatesAgree(LastingWatcher):
             told = {"cooling": labels[int(cooling[row])], "truck": labels[int(truck[row])]}
             return _DIFFERS, told
 
-        self._differs.take(series, state.known, cooling != truck, describe)
+        self._differs.feed(series, state.known, cooling != truck, describe)
 
 
 RULE = Rule(

@@ -8,7 +8,7 @@ from swapcan.messages import BMS_TMS_0, TMS_BMS_0, HvRelayState, HvRequest, Ther
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -46,10 +46,10 @@ class CoolingModeFollowed(LastingWatcher):
         super().__init__(findings)
         self._other = self.lasting(_SUBJECT, findings.limit(_SECONDS), TMS_BMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the mode that the unit says it is in."""
         series = chunk.sound(TMS_BMS_0)
-        order = Beside(chunk.sound(BMS_TMS_0), series)
+        order = LastKnown(chunk.sound(BMS_TMS_0), series)
         does, wanted = series.raw("work_sts"), order.raw("reqst_set_tms_sts")
         powered = order.raw("reqst_tms_hv_on") == HvRequest.REQUEST_HV_ON
         powered &= order.raw("hv_rly_sts") == HvRelayState.CLOSED
@@ -61,7 +61,7 @@ class CoolingModeFollowed(LastingWatcher):
             modes = int(does[row]), int(wanted[row])
             return _OTHER, dict(zip(("does", "wanted"), map(_title, modes), strict=True))
 
-        self._other.take(series, judged, does != wanted, describe)
+        self._other.feed(series, judged, does != wanted, describe)
 
 
 def _title(mode: int) -> Text:

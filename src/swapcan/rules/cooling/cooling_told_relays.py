@@ -8,7 +8,7 @@ from swapcan.messages import B2V_ST0, BMS_TMS_0, HvRelayState, RelayState
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -44,16 +44,16 @@ class CoolingToldRelays(LastingWatcher):
         self._open = self.lasting(_SUBJECT, seconds, BMS_TMS_0)
         self._closed = self.lasting(_SUBJECT, seconds, BMS_TMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the state of the relays."""
         series = chunk.sound(BMS_TMS_0)
-        relays = Beside(chunk.sound(B2V_ST0), series)
+        relays = LastKnown(chunk.sound(B2V_ST0), series)
         main = [relays.raw(field) for field in ("st_main_pos", "st_main_neg")]
         is_open = relays.known & ((main[0] == RelayState.OPEN) | (main[1] == RelayState.OPEN))
         is_closed = relays.known & (main[0] == RelayState.CLOSED) & (main[1] == RelayState.CLOSED)
         told = series.raw("hv_rly_sts")
-        self._open.take(series, is_open, told == HvRelayState.CLOSED, partial(_describe, _OPEN))
-        self._closed.take(series, is_closed, told == HvRelayState.OPEN, partial(_describe, _CLOSED))
+        self._open.feed(series, is_open, told == HvRelayState.CLOSED, partial(_describe, _OPEN))
+        self._closed.feed(series, is_closed, told == HvRelayState.OPEN, partial(_describe, _CLOSED))
 
 
 def _describe(text: Text, _: int) -> Said:

@@ -8,7 +8,7 @@ from swapcan.messages import B2V_ST3, BMS_TMS_0
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -55,10 +55,10 @@ class CoolingToldVoltage(LastingWatcher):
         self._share, self._voltage = findings.limit(_SHARE), findings.limit(_VOLTAGE)
         self._differs = self.lasting(_SUBJECT, findings.limit(_SECONDS), BMS_TMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the voltage."""
         series = chunk.sound(BMS_TMS_0)
-        voltages = Beside(chunk.sound(B2V_ST3), series)
+        voltages = LastKnown(chunk.sound(B2V_ST3), series)
         told = series.value("volt")
         battery, out = voltages.value("upack_batt"), voltages.value("upack_out")
         excess = np.minimum(
@@ -74,7 +74,7 @@ class CoolingToldVoltage(LastingWatcher):
                 "out": float(out[row]),
             }
 
-        self._differs.take(series, judged, excess > 0, describe, excess)
+        self._differs.feed(series, judged, excess > 0, describe, excess)
 
 
 RULE = Rule(

@@ -6,7 +6,7 @@ from swapcan.messages import BMS_TMS_0, TMS_BMS_0, HvRelayState, HvRequest
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -37,13 +37,13 @@ class CoolingVoltageAsked(LastingWatcher):
         super().__init__(findings)
         self._closed = self.lasting(_SUBJECT, findings.limit(_SECONDS), TMS_BMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the unit's relay."""
         series = chunk.sound(TMS_BMS_0)
-        order = Beside(chunk.sound(BMS_TMS_0), series)
+        order = LastKnown(chunk.sound(BMS_TMS_0), series)
         judged = order.is_code("reqst_tms_hv_on", HvRequest.REQUEST_HV_OFF)
         closed = series.raw("hv_rly_sts") == HvRelayState.CLOSED
-        self._closed.take(series, judged, closed, _describe)
+        self._closed.feed(series, judged, closed, _describe)
 
 
 def _describe(_: int) -> Said:

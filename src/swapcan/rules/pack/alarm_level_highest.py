@@ -44,7 +44,7 @@ class AlarmLevelHighest(AlarmWatcher):
         most[own_flag | other.has_flag(alarms.any_around) | ~alarms.known] = _HIGHEST
         wrong = (alarms.level < least) | (alarms.level > most)
         describe = partial(_describe, alarms, least, most)
-        self.runs.take(alarms.time, alarms.order, wrong, describe)
+        self.runs.feed(alarms.time, alarms.order, wrong, describe)
 
 
 def _describe(alarms: Alarms, least: NDArray[np.int64], most: NDArray[np.int64], row: int) -> Said:

@@ -31,9 +31,9 @@ class AlarmWatcher(Watcher):
     def judge(self, alarms: Alarms) -> None:
         """Judge frames around which all is known, by `runs`."""
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the frames around which all is known by now."""
-        self.judge(self._stream.take(chunk))
+        self.judge(self._stream.feed(chunk))
 
     def finish(self, end: LogEnd) -> None:
         """Judge the rest."""

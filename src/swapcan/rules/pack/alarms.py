@@ -122,11 +122,11 @@ class AlarmStream:
     def __init__(self) -> None:
         self._surroundings = Surroundings()
 
-    def take(self, chunk: Chunk) -> Alarms:
+    def feed(self, chunk: Chunk) -> Alarms:
         """Those that can be judged with this chunk."""
         status, relays = chunk.sound(B2V_ST1), chunk.sound(B2V_ST0)
         frames, others = rows_of(status, _words(status)), rows_of(relays, _words(relays))
-        return _alarms(self._surroundings.take(frames, others, chunk.end))
+        return _alarms(self._surroundings.feed(frames, others, chunk.end))
 
     def finish(self) -> Alarms | None:
         """What is left; None where nothing came."""

@@ -83,9 +83,9 @@ class Announced(Watcher):
         self._epoch = 0
         self._begin()
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Note what the frames carry."""
-        self._silences.take(chunk)
+        self._silences.feed(chunk)
         readings, totals = chunk.frames(self._message), chunk.sound(B2V_BattInfo2)
         status = chunk.sound(B2V_ST1)
         for epoch in range(self._epoch, self._silences.count + 1):

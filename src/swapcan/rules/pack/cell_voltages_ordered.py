@@ -62,13 +62,13 @@ class CellVoltagesOrdered(Watcher):
         below = Subject(B2V_ST5.SENDER, B2V_ST5.NAME, _AVERAGE, "< min")
         self._below = Runs(findings, below, least=_IN_A_ROW)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the new frames."""
         self._take_highest(chunk)
         average, lowest = chunk.sound(B2V_ST5), chunk.sound(B2V_ST6)
         frames = rows_of(average, average.value("avg_ucell"))
         others = rows_of(lowest, lowest.value("min_ucell"))
-        self._judge_lowest(self._surroundings.take(frames, others, chunk.end))
+        self._judge_lowest(self._surroundings.feed(frames, others, chunk.end))
 
     def finish(self, end: LogEnd) -> None:
         """Judge the rest, and report what lasts to the end."""
@@ -86,7 +86,7 @@ class CellVoltagesOrdered(Watcher):
         excess = average - highest
         rows = np.flatnonzero(~np.isnan(excess[series.first :])) + series.first
         excess = excess[rows]
-        self._above.take(
+        self._above.feed(
             series.time[rows],
             series.order[rows],
             excess > self._step + ROUNDING,
@@ -100,7 +100,7 @@ class CellVoltagesOrdered(Watcher):
         excess = lowest - frames.data
         judged = known & ~np.isnan(excess)
         excess = excess[judged]
-        self._below.take(
+        self._below.feed(
             frames.time[judged],
             frames.order[judged],
             excess > self._volts + ROUNDING,

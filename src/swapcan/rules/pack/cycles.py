@@ -104,7 +104,7 @@ class CycleStream:
         self._readings = readings
         self._kept: Cycles | None = None
 
-    def take(self, chunk: Chunk) -> Iterator[Cycles]:
+    def feed(self, chunk: Chunk) -> Iterator[Cycles]:
         """Those that have all neighbours with this chunk."""
         for table in chunk.cycles:
             if table.readings.message == self._readings.message and len(table):

@@ -55,9 +55,9 @@ class EnergyCountersRise(Watcher):
             for field in _COUNTERS
         }
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the new frames."""
-        self._silences.take(chunk)
+        self._silences.feed(chunk)
         series = chunk.sound(B2V_ElecEnergy)
         if len(series) < 2 or not series.fresh:
             return
@@ -70,7 +70,7 @@ class EnergyCountersRise(Watcher):
             wrong = fall > self._fall + ROUNDING
             if field == _SINGLE:
                 wrong &= now > self._anew + ROUNDING
-            runs.take(time, order, wrong, partial(self._describe, before, now), fall)
+            runs.feed(time, order, wrong, partial(self._describe, before, now), fall)
 
     def finish(self, end: LogEnd) -> None:
         """Report what lasts to the end."""

@@ -77,7 +77,7 @@ class EnergyFollowsPower(Watcher):
         self._end: _Point | None = None
         self._frames = 0
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Sum up the new frames."""
         totals, gaps, order = self._sum_up(chunk)
         counters = chunk.sound(B2V_ElecEnergy)
@@ -112,7 +112,7 @@ class EnergyFollowsPower(Watcher):
         charger = _charger_is_there(chunk, series)[series.first :]
         out, into = np.maximum(power, 0.0), np.maximum(-power, 0.0)
         flows = np.stack([out, into, into * charger], axis=1)
-        totals, own_gaps = self._integral.take(series.time[series.first :], flows)
+        totals, own_gaps = self._integral.feed(series.time[series.first :], flows)
         return (
             np.concatenate([before[None], totals]),
             np.concatenate([[gaps], own_gaps]),

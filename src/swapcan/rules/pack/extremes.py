@@ -116,11 +116,11 @@ class _Extremes(Watcher):
             runs = Runs(findings, subject, int(findings.limit(lasting)) + 1)
             self._told.append((told, history, runs))
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the cycles that have all neighbours now."""
         for _, history, _ in self._told:
-            history.take(chunk)
-        for cycles in self._stream.take(chunk):
+            history.feed(chunk)
+        for cycles in self._stream.feed(chunk):
             for told, history, runs in self._told:
                 if len(history.time):
                     self.judge(told, cycles, history, runs)
@@ -160,7 +160,7 @@ class ExtremesEqual(_Extremes):
         judged = cycles.near & ~np.isnan(value) & ~np.isnan(low) & ~np.isnan(high)
         low, high, value, rows = low[judged], high[judged], value[judged], rows[judged]
         excess = np.maximum(value - high, low - value)
-        runs.take(
+        runs.feed(
             history.time[rows],
             history.order[rows],
             excess > self.allowed + ROUNDING,
@@ -226,7 +226,7 @@ class ExtremesPlace(_Extremes):
         judged[judged] = known
         rows, off = rows[judged], off[known]
         seen = _Seen(csc[judged], position[judged], there[known], extreme[judged], off)
-        runs.take(
+        runs.feed(
             history.time[rows],
             history.order[rows],
             off > self.allowed + ROUNDING,

@@ -34,7 +34,7 @@ class FaultCount(AlarmWatcher):
         known = alarms.known
         number = alarms.number[known]
         raised = (own.count(alarms.own) + other.count(alarms.any_around))[known]
-        self.runs.take(
+        self.runs.feed(
             alarms.time[known],
             alarms.order[known],
             number > raised,

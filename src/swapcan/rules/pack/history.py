@@ -38,7 +38,7 @@ class History:
         self.raw: dict[str, NDArray[np.int64]] = {field: np.empty(0, np.int64) for field in raw}
         """Raw values by field."""
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Add the frames of a chunk; rows found before are other rows now."""
         series = chunk.sound(self._message)
         if not series.fresh:

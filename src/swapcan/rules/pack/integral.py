@@ -30,7 +30,7 @@ class Integral:
         self._time = np.full(1, np.nan)
         self._values = np.full((1, count), np.nan)
 
-    def take(
+    def feed(
         self, time: Numbers, values: Numbers, apart: NDArray[np.bool_] | None = None
     ) -> tuple[Numbers, NDArray[np.int64]]:
         """The integrals and the gaps up to each row, shapes (rows, count) and (rows,).

@@ -46,7 +46,7 @@ class ReadingMissing(Watcher):
         self._limit = findings.limit(SECONDS)
         self._open: dict[_Place, Occurrence] = {}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the cycles that are complete."""
         for table in chunk.cycles:
             self.findings.examine("BMU", len(table))

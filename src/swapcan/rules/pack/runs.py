@@ -31,7 +31,7 @@ class Runs:
         self._least = least
         self._open: Occurrence | None = None
 
-    def take(
+    def feed(
         self,
         time: NDArray[np.float64],
         order: NDArray[np.int64],

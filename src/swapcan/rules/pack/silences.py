@@ -25,7 +25,7 @@ class Silences:
         """How many there were."""
         return len(self._ends)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Look for silences that end in a chunk."""
         series = chunk.frames(B2V_ST1)
         steps = np.diff(series.time)

@@ -59,7 +59,7 @@ class SocContinuous(Watcher):
         self._jumps: list[Occurrence] = []
         self._alarms: list[float] = []
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the new frames."""
         status = chunk.sound(B2V_ST1)
         raised = np.flatnonzero(status.new_raw("flt_soc_jump")) + status.first

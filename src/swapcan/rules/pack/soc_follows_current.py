@@ -82,7 +82,7 @@ class SocFollowsCurrent(Watcher):
         self._rows = 0
         self._capacities: list[tuple[float, float]] = []
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Sum up the new frames."""
         self._take_capacity(chunk)
         series = chunk.sound(B2V_ST2)
@@ -93,7 +93,7 @@ class SocFollowsCurrent(Watcher):
         jumps = ~(np.abs(np.diff(soc)) <= _JUMP + ROUNDING)
         jumps = jumps if first else np.concatenate([[True], jumps])
         gaps_before = self._integral.gaps
-        totals, gaps = self._integral.take(series.time[first:], current, jumps)
+        totals, gaps = self._integral.feed(series.time[first:], current, jumps)
         bins = np.diff(np.floor(series.time / _BIN)) != 0
         new = np.diff(gaps, prepend=gaps_before) != 0
         new[1 - first :] |= bins

@@ -67,7 +67,7 @@ class Surroundings:
         self._waiting: Rows | None = None
         self._others: Rows | None = None
 
-    def take(self, frames: Rows, others: Rows, now: float) -> Surrounded:
+    def feed(self, frames: Rows, others: Rows, now: float) -> Surrounded:
         """Those that are ready with new frames of both; ``now`` is the latest time."""
         self._waiting = frames if self._waiting is None else self._waiting.followed_by(frames)
         self._others = others if self._others is None else self._others.followed_by(others)

@@ -40,7 +40,7 @@ class TemperaturesOrdered(Watcher):
         self._allowed = findings.limit(_DEGREES)
         self._runs = Runs(findings, Subject(B2V_ST4.SENDER, B2V_ST4.NAME, _FIELD.dbc_name))
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the new frames."""
         series = chunk.sound(B2V_ST4)
         if not series.fresh:
@@ -48,7 +48,7 @@ class TemperaturesOrdered(Watcher):
         average = series.value("avg_temp")
         excess = np.fmax(average - series.value("max_temp"), series.value("min_temp") - average)
         rows = np.flatnonzero(~np.isnan(excess[series.first :])) + series.first
-        self._runs.take(
+        self._runs.feed(
             series.time[rows],
             series.order[rows],
             excess[rows] > self._allowed + ROUNDING,

@@ -29,9 +29,9 @@ class TotalsConstant(Watcher):
         self._silences = Silences()
         self._last: dict[str, tuple[int, int]] = {}  # by field: value, silences before it
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the new frames."""
-        self._silences.take(chunk)
+        self._silences.feed(chunk)
         for message in _MESSAGES:
             series = chunk.sound(message)
             if series.fresh:

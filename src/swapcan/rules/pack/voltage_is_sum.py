@@ -74,10 +74,10 @@ class VoltageIsSum(Watcher):
         self._first: list[Rows] = []
         self._in_series: bool | None = None
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the cycles that have all neighbours now."""
-        self._history.take(chunk)
-        for cycles in self._stream.take(chunk):
+        self._history.feed(chunk)
+        for cycles in self._stream.feed(chunk):
             if len(self._history.time):
                 self._take(self._rows(cycles))
 
@@ -124,7 +124,7 @@ class VoltageIsSum(Watcher):
         time, order, voltage, total, cells = rows
         off = np.abs(voltage - total) / np.maximum(total, 1e-3)
         describe = partial(self._describe, voltage, total, cells)
-        self._runs.take(time, order, off > self._allowed, describe, off)
+        self._runs.feed(time, order, off > self._allowed, describe, off)
 
     def _describe(
         self, voltage: Numbers, total: Numbers, cells: NDArray[np.int64], row: int

@@ -29,7 +29,7 @@ _LONG = Text(
 class PackCodeCharacters(Watcher):
     """Judges the characters that count, as soon as their number is known."""
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the frames of the pack code."""
         for message in PACK_CODE.messages:
             series = chunk.sound(message)

@@ -45,7 +45,7 @@ class PackCodeConstant(Watcher):
         self._limit = findings.limit(_SILENCE)
         self._heard = _Heard(np.inf, -np.inf)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the frames of the pack code that have one before them."""
         beats = chunk.frames(B2V_ST1)
         for message in PACK_CODE.messages:

@@ -20,7 +20,7 @@ _OTHER = Text(
 class PackCodeLength(Watcher):
     """Judges the length in each first message of a code that is sent at all."""
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the frames that tell the length; one without room is for another rule."""
         series = chunk.sound(LENGTH.message)
         if not series.fresh:

@@ -27,9 +27,9 @@ class VinCheckDigit(Watcher):
         super().__init__(findings)
         self._sets = VinSets()
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the VINs that are whole with a chunk."""
-        for frames in self._sets.take(chunk):
+        for frames in self._sets.feed(chunk):
             if is_whole(frames):
                 self._judge(frames)
 

@@ -36,7 +36,7 @@ class VinLettersWatcher(Watcher):
         self._text = text
         self._is_wrong = np.isin(np.arange(256), list(codes))
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the characters of all frames that have a number of the set."""
         series = chunk.frames(VIN.messages[0])
         if not series.fresh:

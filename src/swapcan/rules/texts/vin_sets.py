@@ -34,7 +34,7 @@ class VinSets:
         self.open: list[VinFrame] = []
         """The frames of the set under way."""
 
-    def take(self, chunk: Chunk) -> list[list[VinFrame]]:
+    def feed(self, chunk: Chunk) -> list[list[VinFrame]]:
         """The sets that are over with a chunk."""
         over: list[list[VinFrame]] = []
         series = chunk.frames(_MESSAGE)

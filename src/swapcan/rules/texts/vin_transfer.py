@@ -41,9 +41,9 @@ class VinTransfer(Watcher):
         self._limit = findings.limit(_SECONDS)
         self._first = True
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the sets that are over."""
-        for frames in self._sets.take(chunk):
+        for frames in self._sets.feed(chunk):
             self._judge(frames)
 
     def finish(self, end: LogEnd) -> None:

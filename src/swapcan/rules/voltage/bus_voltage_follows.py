@@ -8,7 +8,7 @@ from swapcan.messages import B2V_ST1, B2V_ST3, BmsState
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -49,10 +49,10 @@ class BusVoltageFollows(LastingWatcher):
         self._share = findings.limit(_SHARE)
         self._differs = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST3)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the voltages under the state HV closed."""
         voltages = chunk.sound(B2V_ST3)
-        state = Beside(chunk.sound(B2V_ST1), voltages)
+        state = LastKnown(chunk.sound(B2V_ST1), voltages)
         battery, out = voltages.value("upack_batt"), voltages.value("upack_out")
         allowed = battery * self._share
         excess = np.abs(out - battery) - allowed
@@ -65,7 +65,7 @@ class BusVoltageFollows(LastingWatcher):
                 "allowed": float(allowed[row]),
             }
 
-        self._differs.take(voltages, judged, excess > 0, describe, excess)
+        self._differs.feed(voltages, judged, excess > 0, describe, excess)
 
 
 RULE = Rule(

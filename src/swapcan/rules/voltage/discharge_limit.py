@@ -23,7 +23,7 @@ class DischargeLimit(OverLimit):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings, _SLACK, "max_lmt_dis_chg_curr", _OVER)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the discharge."""
         series = chunk.sound(B2V_ST2)
         current = series.value("current")

@@ -6,7 +6,7 @@ from swapcan.messages import B2V_ST1, B2V_ST2, ChargeLine, ChargeState
 from swapcan.rules.voltage.over_limit import OverLimit, slack_of
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.report.language import Text
 
@@ -24,10 +24,10 @@ class FeedbackLimit(OverLimit):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings, _SLACK, "max_lmt_chg_curr", _OVER)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the recuperation."""
         series = chunk.sound(B2V_ST2)
-        state = Beside(chunk.sound(B2V_ST1), series)
+        state = LastKnown(chunk.sound(B2V_ST1), series)
         current = -series.value("current")
         judged = (current > 0) & state.is_code("chg_line", ChargeLine.NOT_CONNECTED)
         judged &= state.raw("chg_st") != ChargeState.CHARGING

@@ -10,7 +10,7 @@ from swapcan.messages import B2V_ST0, B2V_ST1, BmsState, RelayState
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -55,10 +55,10 @@ class HvClosedRelays(LastingWatcher):
         state = Subject("BMU", "B2V_ST1", "B2V_ST1_BMS")
         self._both = self.lasting(state, delay, B2V_ST0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the relays under the states HV open and HV closed."""
         relays = chunk.sound(B2V_ST0)
-        state = Beside(chunk.sound(B2V_ST1), relays)
+        state = LastKnown(chunk.sound(B2V_ST1), relays)
         on = state.is_code("bms", BmsState.HV_CLOSED)
         off = state.is_code("bms", BmsState.HV_OPEN)
         both = np.ones(len(relays), np.bool_)
@@ -66,7 +66,7 @@ class HvClosedRelays(LastingWatcher):
         for field, title in _RELAYS.items():
             code = relays.raw(field)
             is_open, is_closed = code == RelayState.OPEN, code == RelayState.CLOSED
-            self._open[field].take(
+            self._open[field].feed(
                 relays,
                 on & (is_open | is_closed),
                 is_open,
@@ -74,7 +74,7 @@ class HvClosedRelays(LastingWatcher):
             )
             both &= is_closed
             shown &= is_open | is_closed
-        self._both.take(relays, off & shown, both, _describe_both)
+        self._both.feed(relays, off & shown, both, _describe_both)
 
 
 def _describe_open(relay: Text, _: int) -> Said:

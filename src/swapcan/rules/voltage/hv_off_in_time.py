@@ -7,7 +7,7 @@ from swapcan.rules.voltage.command import Commands
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -46,15 +46,15 @@ class HvOffInTime(LastingWatcher):
         self._welded = self.lasting(_RELAY, seconds, B2V_ST1)
         self._commands = Commands()
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge what is on under the command off; a pack that charges may have to be."""
         states = chunk.sound(B2V_ST1)
         known, command = self._commands.at(chunk, states)
         judged = known & (command == HvCommand.HV_OFF)
         judged &= states.raw("chg_st") != ChargeState.CHARGING
-        relays = Beside(chunk.sound(B2V_ST0), states)
-        self._closed.take(states, judged, states.raw("bms") == BmsState.HV_CLOSED, _describe_state)
-        self._welded.take(
+        relays = LastKnown(chunk.sound(B2V_ST0), states)
+        self._closed.feed(states, judged, states.raw("bms") == BmsState.HV_CLOSED, _describe_state)
+        self._welded.feed(
             states,
             judged & relays.known,
             relays.is_code("st_main_pos", RelayState.CLOSED),

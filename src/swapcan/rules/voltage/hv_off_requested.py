@@ -8,7 +8,7 @@ from swapcan.messages import B2V_RQ, B2V_ST1, V2B_CMD, HvCommand, HvOffRequest
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.measure.since import Since
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
@@ -44,18 +44,18 @@ class HvOffRequested(LastingWatcher):
         self._ignored = self.lasting(_SUBJECT, findings.limit(_SECONDS), V2B_CMD)
         self._heard = Since(_ANOTHER_PACK)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the commands while a request is in force."""
         commands, states = chunk.sound(V2B_CMD), chunk.sound(B2V_ST1)
         requests = chunk.sound(B2V_RQ)
-        heard = self._heard.take(states, np.ones(len(states), np.bool_))
+        heard = self._heard.feed(states, np.ones(len(states), np.bool_))
         if not len(requests) or not len(states):
             return
-        request, pack = Beside(requests, commands), Beside(states, commands)
+        request, pack = LastKnown(requests, commands), LastKnown(states, commands)
         judged = request.is_code("hv_off", HvOffRequest.REQUEST_HV_OFF) & pack.known
         judged &= requests.time[request.rows] >= heard[pack.rows] - _ANOTHER_PACK
         wrong = commands.raw("hv_on_off") != HvCommand.HV_OFF
-        self._ignored.take(commands, judged, wrong, _describe)
+        self._ignored.feed(commands, judged, wrong, _describe)
 
 
 def _describe(_: int) -> Said:

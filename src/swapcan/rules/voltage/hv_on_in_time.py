@@ -19,7 +19,7 @@ from swapcan.rules.voltage.command import moving
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside, fresh
+from typedcan.judge.measure.last_known import LastKnown, fresh_for
 from typedcan.judge.measure.since import Since
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
@@ -49,25 +49,25 @@ class HvOnInTime(LastingWatcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._stays = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST1)
-        self._on = Since(fresh(V2B_CMD), seen=True)
+        self._on = Since(fresh_for(V2B_CMD), seen=True)
         self._open = Since(math.inf)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the states under the command on."""
         states, commands = chunk.sound(B2V_ST1), chunk.sound(V2B_CMD)
         is_on = (commands.raw("hv_on_off") == HvCommand.HV_ON) & moving(commands)
-        told = self._on.take(commands, is_on)
+        told = self._on.feed(commands, is_on)
         is_open = states.raw("bms") == BmsState.HV_OPEN
-        opened = self._open.take(states, is_open)
+        opened = self._open.feed(states, is_open)
         if not len(commands):
             return
-        command, request = Beside(commands, states), Beside(chunk.sound(B2V_RQ), states)
+        command, request = LastKnown(commands, states), LastKnown(chunk.sound(B2V_RQ), states)
         since = told[command.rows]
         judged = command.known & ~np.isnan(since)
         judged &= states.raw("fault_levl") < FaultLevel.LEVEL3_MOST_SEVERE_FAULT
         judged &= ~request.is_code("hv_off", HvOffRequest.REQUEST_HV_OFF)
         # A pack that opens on its own while it is told to be on breaks other rules, if any.
-        self._stays.take(states, judged, opened <= since, _describe)
+        self._stays.feed(states, judged, opened <= since, _describe)
 
 
 def _describe(_: int) -> Said:

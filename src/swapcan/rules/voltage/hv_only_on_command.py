@@ -9,7 +9,7 @@ import numpy as np
 from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, HvCommand
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
-from typedcan.judge.measure.beside import Beside, fresh
+from typedcan.judge.measure.last_known import LastKnown, fresh_for
 from typedcan.judge.measure.since import Since, last
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.tolerance import Tolerance
@@ -39,19 +39,19 @@ class HvOnlyOnCommand(Watcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._before = findings.limit(_BEFORE)
-        self._heard = Since(fresh(V2B_CMD))
+        self._heard = Since(fresh_for(V2B_CMD))
         self._on = -math.inf
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the begins of precharge."""
         states, commands = chunk.sound(B2V_ST1), chunk.sound(V2B_CMD)
-        heard = self._heard.take(commands, np.ones(len(commands), np.bool_))
+        heard = self._heard.feed(commands, np.ones(len(commands), np.bool_))
         is_on = commands.raw("hv_on_off") == HvCommand.HV_ON
         on = last(commands, is_on, commands.time, self._on)
         precharge = states.raw("bms") == BmsState.PRECHARGE
         begins = np.flatnonzero(precharge[1:] & ~precharge[:-1]) + 1
         if len(begins) and len(commands):
-            beside = Beside(commands, states)
+            beside = LastKnown(commands, states)
             for row in begins[beside.known[begins]].tolist():
                 at = int(beside.rows[row])
                 # It may have begun at any time since the state before.

@@ -36,7 +36,7 @@ class HvStateOrder(Watcher):
         super().__init__(findings)
         self._step = findings.limit(_STEP)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the changes to HV closed."""
         states = chunk.sound(B2V_ST1)
         state, step = states.raw("bms"), np.diff(states.time)

@@ -57,7 +57,7 @@ class Silences:
         self._last: dict[str, Known] = {}
         self._unplugged = -1  # number of the last frame that told that the gun was off
 
-    def take(self, chunk: Chunk) -> list[KnownSilence]:
+    def feed(self, chunk: Chunk) -> list[KnownSilence]:
         """The silences that ended in the next frames."""
         found = [
             KnownSilence(

@@ -30,9 +30,9 @@ class NodeSilence(Watcher):
         self._silences = Silences()
         self._was_on = False
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the silences that end here."""
-        for each in self._silences.take(chunk):
+        for each in self._silences.feed(chunk):
             self._judge(each)
         status = chunk.sound(B2V_ST1)
         if status.fresh and not self._was_on:

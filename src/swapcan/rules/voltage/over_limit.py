@@ -11,7 +11,7 @@ from swapcan.messages import B2V_ST2, V2B_CMD
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -77,10 +77,10 @@ class OverLimit(LastingWatcher):
         """Judge a current in A, positive in the direction of the limit."""
         limit = series.value(self._limit)
         excess = current - limit * (1 + self._share) - self._current
-        truck = Beside(chunk.sound(V2B_CMD), series)
+        truck = LastKnown(chunk.sound(V2B_CMD), series)
 
         def describe(row: int) -> Said:
             return self._text, {"current": float(current[row]), "limit": float(limit[row])}
 
         valid = judged & truck.known & ~np.isnan(excess)
-        self._over.take(series, valid, excess > 0, describe, excess)
+        self._over.feed(series, valid, excess > 0, describe, excess)

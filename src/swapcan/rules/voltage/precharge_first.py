@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from swapcan.messages import B2V_ST0, B2V_ST1, BmsState, RelayState
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
-from typedcan.judge.measure.beside import Beside, fresh
+from typedcan.judge.measure.last_known import LastKnown, fresh_for
 from typedcan.judge.measure.since import Since, last
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
@@ -31,27 +31,27 @@ class PrechargeFirst(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._open = Since(fresh(B2V_ST0))
+        self._open = Since(fresh_for(B2V_ST0))
         # Orders of the last frames, as floats; -1: none.
         self._closed = self._precharged = self._told = -1.0
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the closings of the main positive relay."""
         relays, states = chunk.sound(B2V_ST0), chunk.sound(B2V_ST1)
         positive, precharge = relays.raw("st_main_pos"), relays.raw("st_prechg")
         is_open = positive == RelayState.OPEN
-        opened = self._open.take(relays, is_open)
+        opened = self._open.feed(relays, is_open)
         closed = self._last(relays, positive == RelayState.CLOSED, self._closed)
         precharged = self._last(relays, precharge == RelayState.CLOSED, self._precharged)
         told = self._last(states, states.raw("bms") == BmsState.PRECHARGE, self._told)
         closes = np.flatnonzero(is_open[:-1] & (positive[1:] == RelayState.CLOSED)) + 1
         if len(closes):
-            state = Beside(states, relays)
+            state = LastKnown(states, relays)
             shown = state.known | (precharge == RelayState.OPEN)
             for row in closes.tolist():
                 seconds = float(relays.time[row - 1] - opened[row - 1])
                 step = float(relays.time[row] - relays.time[row - 1])
-                if step > fresh(B2V_ST0) or seconds < _WATCHED or not shown[row]:
+                if step > fresh_for(B2V_ST0) or seconds < _WATCHED or not shown[row]:
                     continue
                 proof = float(precharged[row])
                 if len(told) and states.order[state.rows[row]] < relays.order[row]:

@@ -32,11 +32,11 @@ class PrechargeInTime(LastingWatcher):
         super().__init__(findings)
         self._lasts = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST1)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the states Precharge."""
         states = chunk.sound(B2V_ST1)
         precharge = states.raw("bms") == BmsState.PRECHARGE
-        self._lasts.take(states, precharge, precharge, _describe)
+        self._lasts.feed(states, precharge, precharge, _describe)
 
 
 def _describe(_: int) -> Said:

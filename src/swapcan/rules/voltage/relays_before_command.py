@@ -26,7 +26,7 @@ class RelaysBeforeCommand(Watcher):
         super().__init__(findings)
         self._reported = False
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the commands that begin here."""
         series = chunk.sound(V2B_CMD)
         if not series.fresh:

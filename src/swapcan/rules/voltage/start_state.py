@@ -41,10 +41,10 @@ class StartState(Watcher):
         self._silences = Silences()
         self._started: Start | None = None
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the starts whose first status is here."""
         under_voltage = {
-            found.silence for found in self._silences.take(chunk) if found.known.high_voltage_on
+            found.silence for found in self._silences.feed(chunk) if found.known.high_voltage_on
         }
         status = chunk.sound(B2V_ST1)
         for start in chunk.timing.starts:

@@ -69,7 +69,7 @@ class Reaction(Watcher):
         super().__init__(findings)
         self._parts: dict[FieldRef, list[Track]] = {ref: [] for ref in self.wants}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Keep what is wanted."""
         for ref, parts in self._parts.items():
             series = chunk.frames(ref.message)

@@ -51,7 +51,7 @@ class LoadMeter:
     def __init__(self) -> None:
         self._bits: dict[Channel, Bits] = {}
 
-    def take(self, chunk: DecodedChunk) -> None:
+    def feed(self, chunk: DecodedChunk) -> None:
         """Count the next frames."""
         block = chunk.block
         # One number per kind of frame, so that a single count tells all of them apart.

@@ -64,14 +64,14 @@ class PeriodMeter:
         self._spread = dict.fromkeys(protocol.messages, Spread())
         self._spans: dict[type[Message], _Spans] = {}
 
-    def take(self, timing: Timing) -> None:
+    def feed(self, timing: Timing) -> None:
         """Note the steps of the next frames."""
         for message, steps in timing.steps.items():
             self._spread[message] += steps.spread
             if message not in self._spans:
                 self._spans[message] = _Spans()
             if len(steps):
-                self._spans[message].take(steps)
+                self._spans[message].feed(steps)
 
     def finish(self, seen: Mapping[type[Message], Presence]) -> tuple[Periods, ...]:
         """One per message that has a period and came, in the protocol's order.
@@ -112,7 +112,7 @@ class _Spans:
         self._low: NDArray[np.float64] = np.full(2 * COLUMNS, np.inf)
         self._high: NDArray[np.float64] = np.full(2 * COLUMNS, -np.inf)
 
-    def take(self, steps: Steps) -> None:
+    def feed(self, steps: Steps) -> None:
         """Note steps, one at least."""
         while steps.time.max() >= len(self._low) * self._span:
             self._double()

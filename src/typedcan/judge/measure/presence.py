@@ -104,7 +104,7 @@ class Presences:
         self._numbers = {node: number for number, node in enumerate(nodes_of(protocol), 1)}
         self._periods = periods_of(protocol)
 
-    def take(self, chunk: DecodedChunk) -> tuple[list[Silence], list[Start]]:
+    def feed(self, chunk: DecodedChunk) -> tuple[list[Silence], list[Start]]:
         """Go on; what ended and what began in the next frames, in no order."""
         owner = np.zeros(len(chunk.block), np.min_scalar_type(len(self._numbers)))
         for message in self._protocol.messages:

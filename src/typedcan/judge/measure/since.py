@@ -27,7 +27,7 @@ class Since:
         self._held = False
         self._since = math.nan
 
-    def take(self, series: Series, holds: NDArray[np.bool_]) -> NDArray[np.float64]:
+    def feed(self, series: Series, holds: NDArray[np.bool_]) -> NDArray[np.float64]:
         """The time since when it has been so, for each row; NaN where it is not, or not known.
 
         Each frame is to be taken once, in their order; ``holds`` says where it is so.

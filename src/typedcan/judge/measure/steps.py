@@ -158,10 +158,10 @@ class StepMeter:
         self._keyed = keyed(protocol)
         self._tables: dict[type[Message], _Table] = {}
 
-    def take(self, chunk: DecodedChunk) -> Timing:
+    def feed(self, chunk: DecodedChunk) -> Timing:
         """Measure the next frames."""
         known = [seen.silences[-1] for seen in self.presences.nodes.values() if seen.silences]
-        silences, starts = self.presences.take(chunk)
+        silences, starts = self.presences.feed(chunk)
         steps: dict[type[Message], Steps] = {}
         for message in self._protocol.messages:
             series = chunk.frames(message)
@@ -185,7 +185,7 @@ class StepMeter:
         if message in self._keyed:
             if message not in self._tables:
                 self._tables[message] = _Table(message, self._keyed[message])
-            return self._tables[message].take(series)
+            return self._tables[message].feed(series)
         order = series.order
         steps = Steps(message, series.time[1:], np.diff(series.time), None, lambda at: order[at])
         if message in self._requested:
@@ -217,7 +217,7 @@ class _Table:
         self._time = np.full(1 << 16, np.nan)
         self._order = np.full(1 << 16, -1, np.int64)
 
-    def take(self, series: Series) -> Steps:
+    def feed(self, series: Series) -> Steps:
         """The steps of the new rows."""
         keys = key_of(series, self._fields)
         by = np.argsort(keys, kind="stable")

@@ -44,7 +44,7 @@ class Traffic:
         self._keys = {message: np.zeros(1 << 16, np.bool_) for message in self._keyed}
         self._totals: dict[type[Message], _Totals] = {}
 
-    def take(self, chunk: DecodedChunk) -> None:
+    def feed(self, chunk: DecodedChunk) -> None:
         """Count the next frames."""
         for message in self._messages:
             series = chunk.frames(message)

@@ -15,6 +15,9 @@ from typedcan.shell.printing import printable
 
 _GRAVEST = (Verdict.VIOLATES, Verdict.NOT_JUDGED, Verdict.CONFORMS)
 
+LEAST, MOST, EXTRA = "period-short.share", "period-gap.share", "period-gap.extra"
+"""The tolerances: shares of the printed period, and seconds beside the longest step."""
+
 
 def overall(judgements: Sequence[Judgement]) -> Verdict:
     """The gravest verdict: one log that does not conform is enough."""
@@ -82,3 +85,18 @@ def by_status(judgement: Judgement, status: Status) -> str:
 def channel(load: Load, language: Language) -> str:
     """The name of a bus."""
     return printable(load.channel) or words.NO_CHANNEL.within(language)
+
+
+def allowed_step(judgement: Judgement, period: float) -> tuple[float, float] | None:
+    """The shortest and the longest step at a printed period, in seconds.
+
+    None where the rules that limit it are not among those that judged.
+    """
+    limits = {
+        tolerance.name: in_force(judgement, tolerance)
+        for result in judgement.results
+        for tolerance in result.rule.tolerances
+    }
+    if not {LEAST, MOST, EXTRA} <= set(limits):
+        return None
+    return limits[LEAST] * period, limits[MOST] * period + limits[EXTRA]

@@ -140,7 +140,7 @@ class _Opened:
         self.sources = sources_of(found.subject, judgement.protocol)
         self._points = [Points() for _ in self.sources]
 
-    def take(self, columns: MessageColumns, time: NDArray[np.float64]) -> None:
+    def feed(self, columns: MessageColumns, time: NDArray[np.float64]) -> None:
         """Take what belongs here of the frames of a message."""
         inside = (time >= self.begin) & (time <= self.end)
         if not inside.any():
@@ -212,7 +212,7 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
                     kept &= channels.are_first(message, part, columns.rows)
                     own = rows_where(columns, kept)
                     for each in opened:
-                        each.take(own, own.timestamp - judgement.begin)
+                        each.feed(own, own.timestamp - judgement.begin)
             elif (time > spans[-1][1]).all():
                 break
 

@@ -9,7 +9,7 @@ import numpy as np
 from typedcan.judge.judgement import Judgement
 from typedcan.judge.measure.periods import Periods
 from typedcan.judge.report import figures, words
-from typedcan.judge.report.allowed import allowed_step
+from typedcan.judge.report.facts import allowed_step
 from typedcan.report.language import Language
 from typedcan.report.markup import Markup, element, lines
 from typedcan.report.svg import HEIGHT, WIDTH, Axis, axis, block, framed, level, ticks_up

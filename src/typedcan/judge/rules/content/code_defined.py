@@ -31,7 +31,7 @@ class CodeDefined(Watcher):
         self._tables = tables
         self._numbers = numbers
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         judge_codes(self.findings, chunk, self._tables, _describe)
         judge_codes(self.findings, chunk, self._numbers, _describe_number)

@@ -68,7 +68,7 @@ class InvalidLasting(Watcher):
         self._limit = findings.limit(SECONDS)
         self._open: dict[tuple[type[Message], str], _Run] = {}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         for message, field in self._fields:
             series = chunk.sound(message)

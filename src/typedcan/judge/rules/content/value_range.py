@@ -37,7 +37,7 @@ class ValueRange(Watcher):
         super().__init__(findings)
         self._codes = codes
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         judge_codes(self.findings, chunk, self._codes, _describe, _excess)
 

@@ -25,7 +25,7 @@ class ErrorFrames(Watcher):
         self._order = 0
         self._first = self._last = 0.0
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Count those of the next frames."""
         self.findings.examine(self._node, len(chunk.block))
         rows = chunk.left_over.errors

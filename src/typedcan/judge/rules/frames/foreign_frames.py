@@ -33,12 +33,12 @@ class ForeignFrames(Watcher):
         self._seen: set[type[Message]] = set()
         self._sightings = Sightings()
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         self.findings.examine(self._node, len(chunk.block))
         self._seen.update(each for each in self._messages if chunk.frames(each).fresh)
         left = chunk.left_over
-        self._sightings.take(chunk, left, self._identifiers.is_foreign(left.keys))
+        self._sightings.feed(chunk, left, self._identifiers.is_foreign(left.keys))
 
     def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say which identifiers there were."""

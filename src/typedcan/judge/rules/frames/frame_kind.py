@@ -9,7 +9,7 @@ from typedcan.judge.findings import Findings, Said
 from typedcan.judge.measure.channels import has_format
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
-from typedcan.judge.rules.frames.odd import judge_odd
+from typedcan.judge.rules.frames.misformed import judge_misformed
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
@@ -33,13 +33,13 @@ class FrameKind(Watcher):
         super().__init__(findings)
         self._messages = protocol.messages
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
-        odd = {
+        wrong_rows = {
             message: rows[~has_format(message, chunk.block, rows)]
             for message, rows in chunk.left_over.of_messages()
         }
-        judge_odd(self.findings, chunk, self._messages, odd, _describe)
+        judge_misformed(self.findings, chunk, self._messages, wrong_rows, _describe)
 
 
 def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:

@@ -12,7 +12,7 @@ from typedcan.judge.findings import Findings, Said
 from typedcan.judge.measure.channels import has_format, has_length
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
-from typedcan.judge.rules.frames.odd import judge_odd
+from typedcan.judge.rules.frames.misformed import judge_misformed
 from typedcan.logs.frames import FrameBlock
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
@@ -28,14 +28,14 @@ class FrameLength(Watcher):
         super().__init__(findings)
         self._messages = protocol.messages
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         block = chunk.block
-        odd: dict[type[Message], NDArray[np.int64]] = {}
+        wrong_rows: dict[type[Message], NDArray[np.int64]] = {}
         for message, rows in chunk.left_over.of_messages():
             wrong = ~has_length(message, block, rows)
-            odd[message] = rows[wrong & has_format(message, block, rows)]
-        judge_odd(self.findings, chunk, self._messages, odd, _describe)
+            wrong_rows[message] = rows[wrong & has_format(message, block, rows)]
+        judge_misformed(self.findings, chunk, self._messages, wrong_rows, _describe)
 
 
 def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:

@@ -12,7 +12,7 @@ from typedcan.judge.findings import Findings, Said
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.identifiers import PRIORITY_SHIFT, Identifiers
-from typedcan.judge.rules.frames.odd import judge_odd
+from typedcan.judge.rules.frames.misformed import judge_misformed
 from typedcan.logs.frames import FrameBlock
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
@@ -35,14 +35,16 @@ class IdentifierPriority(Watcher):
         self._identifiers = Identifiers(protocol)
         self._by_rest = {message.FRAME_ID & _REST: message for message in protocol.messages}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         left = chunk.left_over
-        odd: dict[type[Message], NDArray[np.int64]] = {}
+        wrong_rows: dict[type[Message], NDArray[np.int64]] = {}
         for key, rows in left.of(np.flatnonzero(self._identifiers.has_other_priority(left.keys))):
             message = self._by_rest[key & _REST]
-            odd[message] = np.concatenate([odd[message], rows]) if message in odd else rows
-        judge_odd(self.findings, chunk, self._messages, odd, _describe)
+            wrong_rows[message] = (
+                np.concatenate([wrong_rows[message], rows]) if message in wrong_rows else rows
+            )
+        judge_misformed(self.findings, chunk, self._messages, wrong_rows, _describe)
 
 
 def _describe(message: type[Message], block: FrameBlock, row: int) -> Said:

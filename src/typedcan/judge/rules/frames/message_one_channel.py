@@ -32,7 +32,7 @@ class MessageOneChannel(Watcher):
         self._first: dict[type[Message], str] = {}
         self._others: dict[tuple[type[Message], str], Sighting] = {}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         block = chunk.block
         for message in self._messages:

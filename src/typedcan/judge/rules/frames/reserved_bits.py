@@ -32,7 +32,7 @@ class ReservedBits(Watcher):
         super().__init__(findings)
         self._masks = reserved_masks(protocol)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         judge_zeros(self.findings, chunk, self._masks, _SET)
 

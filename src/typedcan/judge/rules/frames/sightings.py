@@ -36,7 +36,7 @@ class Sightings:
         self.others = 0
         self._found: dict[int, Sighting] = {}
 
-    def take(self, chunk: Chunk, left: LeftOver, which: NDArray[np.bool_]) -> None:
+    def feed(self, chunk: Chunk, left: LeftOver, which: NDArray[np.bool_]) -> None:
         """Count the frames of some of the identifiers that are left over."""
         if not which.any():
             return

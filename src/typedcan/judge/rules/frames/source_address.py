@@ -35,7 +35,7 @@ class SourceAddress(Watcher):
         self._seen: set[type[Message]] = set()
         self._sightings = Sightings()
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         for message in self._messages:
             frames = chunk.frames(message).fresh
@@ -43,7 +43,7 @@ class SourceAddress(Watcher):
                 self._seen.add(message)
                 self.findings.examine(message.SENDER, frames)
         left = chunk.left_over
-        self._sightings.take(chunk, left, self._identifiers.has_other_address(left.keys))
+        self._sightings.feed(chunk, left, self._identifiers.has_other_address(left.keys))
 
     def finish(self, end: LogEnd) -> None:  # noqa: ARG002
         """Say which identifiers were meant to be messages."""

@@ -24,7 +24,7 @@ class UnassignedBits(Watcher):
         free = {message: _unassigned(message) for message in protocol.messages}
         self._masks = {message: mask for message, mask in free.items() if mask}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         judge_zeros(self.findings, chunk, self._masks, _SET)
 

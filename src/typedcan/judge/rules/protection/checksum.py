@@ -30,7 +30,7 @@ class Checksum(Watcher):
         super().__init__(findings)
         self._messages = messages
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge all frames of messages that have a checksum."""
         for message in self._messages:
             series, sound = chunk.frames(message), chunk.sound(message)

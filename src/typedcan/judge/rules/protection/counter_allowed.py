@@ -30,7 +30,7 @@ class CounterAllowed(Watcher):
         super().__init__(findings)
         self._counters = counters
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         for message, counter in self._counters:
             series = chunk.sound(message)

@@ -59,7 +59,7 @@ class CounterSequence(Watcher):
         self._counters = counters
         self._places = {message: _Place() for message, _ in counters}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         for message, counter in self._counters:
             frames, sound = chunk.frames(message), chunk.sound(message)

@@ -12,7 +12,7 @@ from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.presence import sent_by
 from typedcan.judge.rule import Rule, Severity, Watcher
-from typedcan.judge.rules.requests.spells import Spell, Spells, first_after
+from typedcan.judge.rules.requests.in_force import InForce, RequestsInForce, first_after
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
@@ -45,14 +45,14 @@ class AnswerInTime(Watcher):
         super().__init__(findings)
         limit = findings.limit(_SECONDS)
         self._waits = [
-            _Wait(Spells(request), sent_by(protocol, _asked(request)), findings, limit)
+            _Wait(RequestsInForce(request), sent_by(protocol, _asked(request)), findings, limit)
             for request in protocol.requests
         ]
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the requests whose time is over, or that were answered."""
         for wait in self._waits:
-            wait.take(chunk)
+            wait.feed(chunk)
 
 
 @dataclass(slots=True)
@@ -63,41 +63,41 @@ class _Wait:
     since the request began.
     """
 
-    spells: Spells
+    requests: RequestsInForce
     own: Sequence[type[Message]]
     findings: Findings
     limit: float
-    judged: Spell | None = None
+    judged: InForce | None = None
     seen: bool = False
 
-    def take(self, chunk: Chunk) -> None:
-        for spell in self.spells.take(chunk):
-            if spell is self.judged:
+    def feed(self, chunk: Chunk) -> None:
+        for in_force in self.requests.feed(chunk):
+            if in_force is self.judged:
                 continue
-            if spell.begin.order >= chunk.first_order:
+            if in_force.begin.order >= chunk.first_order:
                 self.seen = False
-            if self._settle(spell, chunk):
-                self.judged = spell
+            if self._settle(in_force, chunk):
+                self.judged = in_force
 
-    def _settle(self, spell: Spell, chunk: Chunk) -> bool:
+    def _settle(self, in_force: InForce, chunk: Chunk) -> bool:
         """Judge a request as far as it can be; whether it is settled."""
-        over = _first_later(chunk, spell, spell.begin.time + self.limit)
-        last = over if spell.end is None else min(over or spell.end.order, spell.end.order)
-        request = self.spells.request
+        over = _first_later(chunk, in_force, in_force.begin.time + self.limit)
+        last = over if in_force.end is None else min(over or in_force.end.order, in_force.end.order)
+        request = self.requests.request
         missing = [
             answer
             for answer in request.answers
-            if answer not in spell.answers
-            or (last is not None and spell.answers[answer].order >= last)
+            if answer not in in_force.answers
+            or (last is not None and in_force.answers[answer].order >= last)
         ]
         if not missing:
             self.findings.examine(_asked(request))
             return True
-        self.seen = self.seen or self._sent_anything(chunk, spell.begin.order, last)
+        self.seen = self.seen or self._sent_anything(chunk, in_force.begin.order, last)
         if last is None:
             return False
         if last == over and self.seen:
-            self._blame(request, spell, missing)
+            self._blame(request, in_force, missing)
         return True
 
     def _sent_anything(self, chunk: Chunk, after: int, before: int | None) -> bool:
@@ -109,15 +109,15 @@ class _Wait:
                 return True
         return False
 
-    def _blame(self, request: Request, spell: Spell, missing: list[type[Message]]) -> None:
+    def _blame(self, request: Request, in_force: InForce, missing: list[type[Message]]) -> None:
         message, field = request.field
         node = _asked(request)
         self.findings.examine(node)
         found = Occurrence(
             subject=Subject(node, message.NAME, message.FIELDS[field].dbc_name),
-            start=spell.begin.time,
-            end=spell.begin.time + self.limit,
-            order=spell.begin.order,
+            start=in_force.begin.time,
+            end=in_force.begin.time + self.limit,
+            order=in_force.begin.order,
             measure=float(len(missing)),
             text=_MISSING,
             values={
@@ -133,11 +133,11 @@ def _asked(request: Request) -> str:
     return request.answers[0].SENDER
 
 
-def _first_later(chunk: Chunk, spell: Spell, time: float) -> int | None:
-    """The number of the first frame of a chunk that comes in a spell but later than a time."""
+def _first_later(chunk: Chunk, in_force: InForce, time: float) -> int | None:
+    """The number of the first frame of a chunk that comes in a in_force but later than a time."""
     if chunk.end <= time:
         return None
-    begin = max(0, spell.begin.order + 1 - chunk.first_order)
+    begin = max(0, in_force.begin.order + 1 - chunk.first_order)
     for start in range(begin, len(chunk.block), _SOME):  # it is seldom far
         late = chunk.block.timestamp[start : start + _SOME] - chunk.begin > time
         if late.any():

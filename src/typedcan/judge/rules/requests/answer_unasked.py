@@ -12,7 +12,7 @@ from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.measure.presence import sent_by
 from typedcan.judge.rule import Rule, Severity, Watcher
-from typedcan.judge.rules.requests.spells import Moment, Spell, Spells
+from typedcan.judge.rules.requests.in_force import InForce, Moment, RequestsInForce
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -56,10 +56,10 @@ class AnswerUnasked(Watcher):
         super().__init__(findings)
         self._all = [_Asking(request, protocol, findings) for request in protocol.requests]
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the answers for which it is known whether they were asked for."""
         for asking in self._all:
-            asking.take(chunk)
+            asking.feed(chunk)
 
 
 class _Asking:
@@ -71,31 +71,31 @@ class _Asking:
         self._findings = findings
         self._limit = findings.limit(_SECONDS)
         self._begin = findings.limit(_BEGIN)
-        self._spells = Spells(request)
-        self._last: Spell | None = None
+        self._requests = RequestsInForce(request)
+        self._last: InForce | None = None
         self._asker: Moment | None = None  # the first frame of the node that asks
         self._first: Moment | None = None  # the first frame of the request's message
         self._answered: dict[type[Message], float] = {}  # when each answer came first
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         message = self._request.field.message
         if self._asker is None:
             self._asker = _earliest(chunk, self._askers)
         if self._first is None:
             self._first = _earliest(chunk, (message,))
-        spells = self._spells.take(chunk)
-        if self._last and self._last not in spells:
-            spells.insert(0, self._last)
-        self._last = spells[-1] if spells else None
+        requests = self._requests.feed(chunk)
+        if self._last and self._last not in requests:
+            requests.insert(0, self._last)
+        self._last = requests[-1] if requests else None
         for answer in self._request.answers:
             series = chunk.frames(answer)
             if series.fresh:
                 self._answered.setdefault(answer, float(series.time[series.first]))
             if series.fresh and self._asker:
-                self._judge(series, self._asker, spells)
+                self._judge(series, self._asker, requests)
 
-    def _judge(self, series: Series, asker: Moment, spells: Sequence[Spell]) -> None:
-        ended = _ended(series, spells)
+    def _judge(self, series: Series, asker: Moment, requests: Sequence[InForce]) -> None:
+        ended = _ended(series, requests)
         asked = series.time <= ended + self._limit
         known = asked | ((series.order > asker.order) & self._known(series))
         unknown = series.fresh - int(known[series.first :].sum())
@@ -128,12 +128,14 @@ class _Asking:
         return known
 
 
-def _ended(series: Series, spells: Sequence[Spell]) -> NDArray[np.float64]:
+def _ended(series: Series, requests: Sequence[InForce]) -> NDArray[np.float64]:
     """When the last request before each frame ended: inf for not yet, -inf for there was none."""
-    if not spells:
+    if not requests:
         return np.full(len(series), -np.inf)
-    begins = np.array([spell.begin.order for spell in spells])
-    ends = np.array([-np.inf, *(spell.end.time if spell.end else np.inf for spell in spells)])
+    begins = np.array([in_force.begin.order for in_force in requests])
+    ends = np.array(
+        [-np.inf, *(in_force.end.time if in_force.end else np.inf for in_force in requests)]
+    )
     return ends[np.searchsorted(begins, series.order)]
 
 

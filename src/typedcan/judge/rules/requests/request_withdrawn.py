@@ -7,7 +7,7 @@ from functools import partial
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
-from typedcan.judge.rules.requests.spells import Moment, Spell, Spells
+from typedcan.judge.rules.requests.in_force import InForce, Moment, RequestsInForce
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
 from typedcan.wire.protocol import Protocol, Request
@@ -34,22 +34,22 @@ class RequestWithdrawn(Watcher):
     def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
         self._limit = findings.limit(_SECONDS)
-        self._all = [Spells(request) for request in protocol.requests]
+        self._all = [RequestsInForce(request) for request in protocol.requests]
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the requests that end."""
-        for spells in self._all:
-            for spell in spells.take(chunk):
-                answered = _answered(spells.request, spell)
-                if spell.end and answered:
-                    self._judge(spells.request, answered, spell.end.time)
+        for requests in self._all:
+            for in_force in requests.feed(chunk):
+                answered = _answered(requests.request, in_force)
+                if in_force.end and answered:
+                    self._judge(requests.request, answered, in_force.end.time)
 
     def finish(self, end: LogEnd) -> None:
         """Judge the requests that are still in force, where that is too long already."""
-        for spells in self._all:
-            answered = spells.open and _answered(spells.request, spells.open)
+        for requests in self._all:
+            answered = requests.open and _answered(requests.request, requests.open)
             if answered and end.time - answered.time > self._limit:
-                self._judge(spells.request, answered, end.time)
+                self._judge(requests.request, answered, end.time)
 
     def _judge(self, request: Request, answered: Moment, end: float) -> None:
         message, field = request.field
@@ -69,11 +69,11 @@ class RequestWithdrawn(Watcher):
         self.findings.add(found)
 
 
-def _answered(request: Request, spell: Spell) -> Moment | None:
+def _answered(request: Request, in_force: InForce) -> Moment | None:
     """The frame with which the answer was complete."""
-    if len(spell.answers) < len(request.answers):
+    if len(in_force.answers) < len(request.answers):
         return None
-    return max(spell.answers.values(), key=lambda moment: moment.order)
+    return max(in_force.answers.values(), key=lambda moment: moment.order)
 
 
 def rule(protocol: Protocol) -> Rule:

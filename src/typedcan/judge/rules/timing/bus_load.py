@@ -45,7 +45,7 @@ class BusLoad(Watcher):
         self._back = 0.0
         self._parts = 1
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Count the frames."""
         time = chunk.block.timestamp - chunk.begin
         steps = np.diff(time, prepend=self._last)

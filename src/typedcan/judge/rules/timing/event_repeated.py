@@ -69,7 +69,7 @@ class EventRepeated(Watcher):
         self._runs: dict[tuple[type[Message], int], _Run] = {}
         self._asked: dict[type[Message], int] = {}  # where in the log it was last asked for
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Go on with the runs."""
         for message in self._events:
             asked = self._askings(chunk, message)

@@ -40,7 +40,7 @@ class MessageMissing(Watcher):
         super().__init__(findings)
         self._periods = periods_of(protocol)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Nothing is missing before the end."""
 
     def finish(self, end: LogEnd) -> None:

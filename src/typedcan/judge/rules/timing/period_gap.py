@@ -55,7 +55,7 @@ class PeriodGap(Watcher):
         super().__init__(findings)
         self._periods = periods_of(protocol)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the steps that end here."""
         for message, steps in chunk.timing.steps.items():
             if message.PERIOD:

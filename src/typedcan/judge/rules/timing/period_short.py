@@ -28,7 +28,7 @@ _SHORT = Text(
 class PeriodShort(Watcher):
     """Looks for short steps."""
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the steps that end here."""
         share = self.findings.limit(_SHARE)
         for message, steps in chunk.timing.steps.items():

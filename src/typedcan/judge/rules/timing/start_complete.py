@@ -58,7 +58,7 @@ class StartComplete(Watcher):
         self._waiting: dict[type[Message], Start] = {}
         self._never: list[tuple[type[Message], Start, float]] = []
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the first frames that are here."""
         for start in chunk.timing.starts:
             for message in self._periods:

@@ -32,7 +32,7 @@ class WholeLog(Watcher):
         """Of the steps that count."""
         return steps.spread
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Add the steps that end here."""
         for message, steps in chunk.timing.steps.items():
             if message.PERIOD:

@@ -37,7 +37,7 @@ class FrameNumbers(Watcher):
         super().__init__(findings)
         self._parts = parts
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge all frames with such numbers."""
         for message, group, number, totals in self._parts:
             series = chunk.frames(message)

@@ -46,7 +46,7 @@ class TurnWatcher(Watcher):
         self._turns: Turns | None = None
         self._tail = NO_ROWS
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the frames whose turn is known."""
         new = self._new_rows(chunk)
         if not len(new.keys):

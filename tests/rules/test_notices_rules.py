@@ -10,7 +10,7 @@ from rules.in_blocks import judged
 from rules.recorded import recorded, written
 
 from swapcan.conform import Severity
-from swapcan.rules.told import RULES
+from swapcan.rules.notices import RULES
 
 
 @pytest.fixture

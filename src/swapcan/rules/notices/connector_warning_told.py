@@ -24,7 +24,7 @@ class ConnectorWarningTold(LastingWatcher):
         super().__init__(findings)
         self._warned = self.lasting(_SUBJECT, None, BSU_BMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Tell of the warnings."""
         series = chunk.sound(BSU_BMS_0)
         level, degrees = series.raw("conctor_temp_warn"), series.value("connector_temp")
@@ -32,7 +32,7 @@ class ConnectorWarningTold(LastingWatcher):
         def describe(row: int) -> Said:
             return _WARNED, {"level": int(level[row]), "degrees": float(degrees[row])}
 
-        self._warned.take(series, None, level > 0, describe, level)
+        self._warned.feed(series, None, level > 0, describe, level)
 
 
 RULE = Rule(

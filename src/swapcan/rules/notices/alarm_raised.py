@@ -42,7 +42,7 @@ class AlarmRaised(LastingWatcher):
         super().__init__(findings)
         self._raised = {alarm: self.lasting(_subject(*alarm), None, alarm[0]) for alarm in _ALARMS}
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Tell of all alarms."""
         for (message, field), raised in self._raised.items():
             series = chunk.sound(message)
@@ -54,7 +54,7 @@ class AlarmRaised(LastingWatcher):
     @staticmethod
     def _tell(series: Series, field: str, raised: Lasting) -> None:
         level = series.raw(field)
-        raised.take(series, None, level > 0, partial(_describe, series, field), level)
+        raised.feed(series, None, level > 0, partial(_describe, series, field), level)
 
 
 def _subject(message: type[Message], field: str) -> Subject:

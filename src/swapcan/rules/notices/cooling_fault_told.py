@@ -24,7 +24,7 @@ class CoolingFaultTold(LastingWatcher):
         super().__init__(findings)
         self._told = self.lasting(_SUBJECT, None, TMS_BMS_0)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Tell of the faults."""
         series = chunk.sound(TMS_BMS_0)
         level, code = series.raw("fault_lv"), series.raw("fault_code")
@@ -32,7 +32,7 @@ class CoolingFaultTold(LastingWatcher):
         def describe(row: int) -> Said:
             return _TOLD, {"level": int(level[row]), "code": int(code[row])}
 
-        self._told.take(series, None, (level > 0) | (code > 0), describe, level)
+        self._told.feed(series, None, (level > 0) | (code > 0), describe, level)
 
 
 RULE = Rule(

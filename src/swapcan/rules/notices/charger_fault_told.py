@@ -35,11 +35,11 @@ class ChargerFaultTold(LastingWatcher):
             for field in _FAULTS
         }
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Tell of the faults."""
         series = chunk.sound(C2B_ACStatus)
         for field, told in self._told.items():
-            told.take(series, None, series.raw(field) == 1, partial(_describe, field))
+            told.feed(series, None, series.raw(field) == 1, partial(_describe, field))
 
 
 def _describe(field: str, _: int) -> Said:

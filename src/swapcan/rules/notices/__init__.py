@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swapcan.rules.told import (
+from swapcan.rules.notices import (
     alarm_raised,
     charger_fault_told,
     connector_warning_told,

@@ -13,12 +13,12 @@ from typedcan.wire.message import Message
 _PERIODS = 3.5  # two frames in a row may be lost
 
 
-def fresh(message: type[Message]) -> float:
+def fresh_for(message: type[Message]) -> float:
     """Seconds for which a frame of a message counts; for ever where it has no period."""
     return math.inf if message.PERIOD is None else _PERIODS * message.PERIOD
 
 
-class Beside:
+class LastKnown:
     """The last frame of one message at each frame of another one.
 
     Parameters
@@ -26,7 +26,7 @@ class Beside:
     of
         Of which message.
     at
-        Beside which frames; what stands at the row of before means nothing.
+        LastKnown which frames; what stands at the row of before means nothing.
     age
         Seconds for which a frame counts; None: as `fresh` has it.
 
@@ -40,7 +40,7 @@ class Beside:
         self._of = of
         if len(of):
             self.known &= at.time - of.time[self.rows] <= (
-                fresh(of.message) if age is None else age
+                fresh_for(of.message) if age is None else age
             )
 
     def raw(self, field: str) -> NDArray[np.int64]:

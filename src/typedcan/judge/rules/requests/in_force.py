@@ -23,7 +23,7 @@ class Moment(NamedTuple):
 
 
 @dataclass(slots=True, eq=False)
-class Spell:
+class InForce:
     """A request in force, from its first frame to the one that withdraws it.
 
     Parameters
@@ -39,7 +39,7 @@ class Spell:
     answers: dict[type[Message], Moment] = field(default_factory=dict[type[Message], Moment])
 
 
-class Spells:
+class RequestsInForce:
     """Follows one request through a log.
 
     A request is an event message: it is in force from the first frame that asks to the first one
@@ -53,25 +53,25 @@ class Spells:
 
     def __init__(self, request: Request) -> None:
         self.request = request
-        self.open: Spell | None = None
+        self.open: InForce | None = None
 
-    def take(self, chunk: Chunk) -> list[Spell]:
-        """The spells of which something is in a chunk, in their order."""
+    def feed(self, chunk: Chunk) -> list[InForce]:
+        """The requests of which something is in a chunk, in their order."""
         series = chunk.sound(self.request.field.message)
         if not series.fresh and self.open is None:
             return []
-        spells = [] if self.open is None else [self.open]
+        requests = [] if self.open is None else [self.open]
         for row in self._changes(series):
             at = Moment(float(series.time[row]), int(series.order[row]))
             if self.open is None:
-                self.open = Spell(at)
-                spells.append(self.open)
+                self.open = InForce(at)
+                requests.append(self.open)
             else:
                 self.open.end = at
                 self.open = None
-        for spell in spells:
-            self._find_answers(spell, chunk)
-        return spells
+        for in_force in requests:
+            self._find_answers(in_force, chunk)
+        return requests
 
     def _changes(self, series: Series) -> Iterator[int]:
         """The new rows with which the request begins or ends."""
@@ -79,15 +79,15 @@ class Spells:
         changed = np.diff(asked, prepend=self.open is not None)
         yield from (np.flatnonzero(changed) + series.first).tolist()
 
-    def _find_answers(self, spell: Spell, chunk: Chunk) -> None:
+    def _find_answers(self, in_force: InForce, chunk: Chunk) -> None:
         for answer in self.request.answers:
-            if answer in spell.answers:
+            if answer in in_force.answers:
                 continue
             series = chunk.sound(answer)
-            row = first_after(series.order, max(spell.begin.order, chunk.first_order - 1))
-            if row is None or (spell.end and series.order[row] > spell.end.order):
+            row = first_after(series.order, max(in_force.begin.order, chunk.first_order - 1))
+            if row is None or (in_force.end and series.order[row] > in_force.end.order):
                 continue
-            spell.answers[answer] = Moment(float(series.time[row]), int(series.order[row]))
+            in_force.answers[answer] = Moment(float(series.time[row]), int(series.order[row]))
 
 
 def first_after(order: NDArray[np.int64], after: int) -> int | None:

@@ -24,11 +24,11 @@ class HvOffAsked(LastingWatcher):
         super().__init__(findings)
         self._asked = self.lasting(_SUBJECT, None, B2V_RQ)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Tell of the requests."""
         requests = chunk.sound(B2V_RQ)
         asked = requests.raw("hv_off") == HvOffRequest.REQUEST_HV_OFF
-        self._asked.take(requests, None, asked, _describe)
+        self._asked.feed(requests, None, asked, _describe)
 
 
 def _describe(_: int) -> Said:

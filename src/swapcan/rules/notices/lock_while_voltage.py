@@ -8,7 +8,7 @@ from swapcan.messages import B2V_ST1, BSU_BMS_0, BmsState, ConnectorState, LockS
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
-from typedcan.judge.measure.beside import Beside
+from typedcan.judge.measure.last_known import LastKnown
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -44,15 +44,15 @@ class LockWhileVoltage(LastingWatcher):
             for signal in ("BSU_Lock", "BSU_ConnectSt")
         )
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Judge the swap controller's reports while there is high voltage."""
         series = chunk.sound(BSU_BMS_0)
-        state = Beside(chunk.sound(B2V_ST1), series)
+        state = LastKnown(chunk.sound(B2V_ST1), series)
         judged = state.is_code("bms", BmsState.HV_CLOSED)
         unlocked = series.raw("lock") != LockState.LOCKED
         apart = series.raw("connect_st") == ConnectorState.NOT_CONNECTED
-        self._unlocked.take(series, judged, unlocked, partial(_describe, _UNLOCKED))
-        self._apart.take(series, judged, apart, partial(_describe, _APART))
+        self._unlocked.feed(series, judged, unlocked, partial(_describe, _UNLOCKED))
+        self._apart.feed(series, judged, apart, partial(_describe, _APART))
 
 
 def _describe(text: Text, _: int) -> Said:

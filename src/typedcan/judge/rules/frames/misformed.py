@@ -1,4 +1,4 @@
-"""Frames that are meant as a message's but are odd, judged among those that are as they should."""
+"""Frames that are meant as a message's but are misformed, judged among its other frames."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ Describe = Callable[[type[Message], FrameBlock, int], Said]
 _NONE = np.empty(0, np.int64)
 
 
-def judge_odd(
+def judge_misformed(
     findings: Findings,
     chunk: Chunk,
     messages: Sequence[type[Message]],
-    odd: Mapping[type[Message], NDArray[np.int64]],
+    misformed: Mapping[type[Message], NDArray[np.int64]],
     describe: Describe,
 ) -> None:
     """Judge the frames of all messages and some others; those in a row are one occurrence.
@@ -34,13 +34,13 @@ def judge_odd(
     ----------
     messages
         All of the protocol.
-    odd
+    misformed
         Rows of the chunk's block that are wrong, by the message that they are meant as; all frames
         of the messages themselves are right.
     """
     for message in messages:
         own = chunk.frames(message)
-        rows = odd.get(message, _NONE)
+        rows = misformed.get(message, _NONE)
         if len(rows):
             _judge(findings, chunk, message, rows, describe)
         elif own.fresh:
@@ -53,12 +53,12 @@ def _judge(
     findings: Findings,
     chunk: Chunk,
     message: type[Message],
-    odd: NDArray[np.int64],
+    misformed: NDArray[np.int64],
     describe: Describe,
 ) -> None:
-    """Judge one message where some frames are odd."""
+    """Judge one message where some frames are misformed."""
     own, block = chunk.frames(message), chunk.block
-    rows = np.sort(np.concatenate([own.order[own.first :] - chunk.first_order, odd]))
+    rows = np.sort(np.concatenate([own.order[own.first :] - chunk.first_order, misformed]))
     columns = MessageColumns(
         message.NAME,
         message.FRAME_ID,
@@ -73,4 +73,4 @@ def _judge(
         return describe(message, block, int(rows[place]))
 
     subject = Subject(message.SENDER, message.NAME)
-    findings.rows(subject, series, np.isin(rows, odd), described)
+    findings.rows(subject, series, np.isin(rows, misformed), described)

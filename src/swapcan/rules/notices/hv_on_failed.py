@@ -23,10 +23,10 @@ class HvOnFailed(LastingWatcher):
         super().__init__(findings)
         self._failed = self.lasting(_SUBJECT, None, B2V_ST1)
 
-    def take(self, chunk: Chunk) -> None:
+    def feed(self, chunk: Chunk) -> None:
         """Tell of the failures."""
         states = chunk.sound(B2V_ST1)
-        self._failed.take(states, None, states.raw("bms") == BmsState.FAIL_TO_HV_ON, _describe)
+        self._failed.feed(states, None, states.raw("bms") == BmsState.FAIL_TO_HV_ON, _describe)
 
 
 def _describe(_: int) -> Said:
