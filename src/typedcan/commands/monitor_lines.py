@@ -34,6 +34,7 @@ its own has what that shows in place of ``alarms``, which are among it, and ``tr
 from __future__ import annotations
 
 import json
+import math
 from collections import Counter
 from typing import Any
 
@@ -152,9 +153,14 @@ def _frame(seen: Seen | None) -> dict[str, Any] | None:
 
 
 def _rounded(value: Any) -> Any:
-    """The same with microseconds and the like, not more digits than were measured."""
+    """The same with microseconds and the like, not more digits than were measured.
+
+    A number that JSON has not, such as a float that is not a number, becomes null.
+    """
     if isinstance(value, dict):
         return {key: _rounded(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
         return [_rounded(each) for each in value]
-    return round(value, 6) if isinstance(value, float) else value
+    if isinstance(value, float):
+        return round(value, 6) if math.isfinite(value) else None
+    return value

@@ -10,8 +10,9 @@ A decoded frame in JSON, one object a line:
 Signals have their DBC names. A physical value or a count is a number, in the unit of the DBC; a
 code is an object, with a null label where it has none; a character is a string, or the number of
 its code where that is no character. A signal that says invalid or abnormal instead of a value is
-null, and ``states`` says which. A frame of a known message with a wrong length or checksum has
-no signals but its bytes and what is wrong:
+null, and ``states`` says which; so is a float that is infinite ("inf", "-inf") or no number
+("nan"). Signals of a branch that is not in the frame are left out. A frame of a known message with
+a wrong length or checksum has no signals but its bytes and what is wrong:
 
     {"timestamp": 1.6, "channel": 0, "id": 201, "message": "Motor_Status", "data": "00FF...",
      "fault": {"kind": "checksum", "text": "checksum is 0x00, the bytes make 0xFF"}}
@@ -23,7 +24,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from typing import Any
 
 import can
@@ -31,7 +32,7 @@ import can
 from typedcan.shell.console import say
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Fault, Received
-from typedcan.wire.message import LabelledField, Message, SignalState
+from typedcan.wire.message import Field, LabelledField, Message, SignalState
 from typedcan.wire.receiver import Counts, Receiver
 
 JSON_HELP = (
@@ -115,10 +116,7 @@ def text_line(taken: Received[Message] | Fault, width: int = 0) -> str:
 
 def values_text(message: Message) -> list[str]:
     """The fields of a message as name=value, with label or unit."""
-    return [
-        f"{field.name}={field.text(getattr(message, field.name))}"
-        for field in message.FIELDS.values()
-    ]
+    return [f"{field.name}={field.text(getattr(message, field.name))}" for field in _there(message)]
 
 
 def json_line(taken: Received[Message] | Fault) -> str:
@@ -149,16 +147,24 @@ def _fault(fault: Fault) -> dict[str, str]:
     return {"kind": fault.kind, "text": fault.text}
 
 
+def _there(message: Message) -> Iterator[Field]:
+    """The fields of the message, without those of branches that are not there."""
+    for field in message.FIELDS.values():
+        if field.name not in message.SELECTED or getattr(message, field.name) is not None:
+            yield field
+
+
 def _signals(message: Message) -> dict[str, Any]:
     signals: dict[str, Any] = {}
-    for field in message.FIELDS.values():
+    for field in _there(message):
         value = getattr(message, field.name)
         if isinstance(value, SignalState):
             signals[field.dbc_name] = None
         elif isinstance(field, LabelledField):
             signals[field.dbc_name] = {"value": int(value), "label": field.labels.get(value)}
         elif isinstance(value, float):
-            signals[field.dbc_name] = round(value, 9)  # 0.1 x 3 is not 0.3
+            # 0.1 x 3 is not 0.3, and JSON has neither infinity nor what is no number.
+            signals[field.dbc_name] = round(value, 9) if math.isfinite(value) else None
         else:
             signals[field.dbc_name] = value
     return signals
@@ -169,4 +175,5 @@ def _states(message: Message) -> dict[str, str]:
         field.dbc_name: str(value)
         for field in message.FIELDS.values()
         if isinstance(value := getattr(message, field.name), SignalState)
+        or (isinstance(value, float) and not math.isfinite(value))
     }

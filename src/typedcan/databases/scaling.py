@@ -63,4 +63,4 @@ def limits(
 
 def _is_open(limit: float | None) -> bool:
     """Whether a limit is not given, or too large for cantools, as of signals of 1600 bits."""
-    return limit is None or math.isinf(limit)
+    return limit is None or abs(limit) == math.inf

@@ -10,14 +10,20 @@ from typedcan.wire.message import CharacterField, Field, LabelledField, Value
 _FEW_BITS = 8
 """The longest signal whose raw values are looked at one by one."""
 
+MOST_BITS = 64
+"""The longest whose limits are reckoned with; longer ones are judged each time."""
+
 
 def right_codes(field: Field, judge: Callable[[Value], object | None]) -> range:
     """Raw values in a row where nothing is wrong; what is beyond needs judging.
 
     They are the lowest such values, as those of states and errors are high by custom. ``judge``
-    gives None for a value where nothing is wrong.
+    gives None for a value where nothing is wrong. Of signed signals they are the bits of values
+    that are not negative; the bits of floats are no raw values at all.
     """
-    first, last = 0, (1 << field.length) - 1
+    if field.signal.is_float or field.length > MOST_BITS:
+        return range(0)
+    first, last = 0, field.signal.raw_limits[1]
     if field.length <= _FEW_BITS:
         wrong = [raw for raw in range(last + 1) if judge(_value(field, raw)) is not None]
     elif isinstance(field, LabelledField | CharacterField):

@@ -6,9 +6,9 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from typedcan.supervise.bit_places import ByteOrder, bit_places
+from typedcan.supervise.bit_places import ByteOrder, Place, bit_places
 from typedcan.supervise.events import SignalChanged, SignalKind
-from typedcan.supervise.right_codes import right_codes
+from typedcan.supervise.right_codes import MOST_BITS, right_codes
 from typedcan.supervise.snapshot import SignalSnapshot
 from typedcan.wire.link import Received
 from typedcan.wire.message import (
@@ -17,6 +17,7 @@ from typedcan.wire.message import (
     FilledField,
     LabelledField,
     Message,
+    NumberField,
     SignalState,
     Value,
 )
@@ -42,8 +43,8 @@ class _Active(NamedTuple):
 class WatchedField(NamedTuple):
     """A signal that can say something is wrong.
 
-    ``mask`` are its bits in the payload; where they make a number from ``low`` to ``high``, surely
-    nothing is wrong. ``judge`` tells in any case.
+    ``mask`` are its bits in the payload, with those of what selects it; where they make a number
+    from ``low`` to ``high``, surely nothing is wrong. ``judge`` tells in any case.
     """
 
     mask: int
@@ -110,6 +111,8 @@ class Signals:
         for mask, name, judge, low, high in self._watch.fields:
             if changed & mask and (not low <= bits & mask <= high or name in active):
                 value: Value = getattr(received.message, name)
+                if value is None:  # a branch that is not in this frame says nothing
+                    continue
                 kind = judge(value)
                 if kind is not None or name in active:
                     events += self._change(received.kind, name, kind, value, now)
@@ -169,10 +172,21 @@ def watched_fields(protocol: Protocol, message: type[Message]) -> dict[str, Watc
             mask, shift = places[name]
             right = right_codes(field, judge)
             low, high = 1, 0  # no value passes
-            if right and shift is not None:
+            if name in message.SELECTED:
+                mask |= _selectors(message, name, places)
+            elif right and shift is not None:
                 low, high = right[0] << shift, right[-1] << shift
             found[name] = WatchedField(mask, name, judge, low, high)
     return found
+
+
+def _selectors(message: type[Message], name: str, places: Mapping[str, Place]) -> int:
+    """The bits of all that selects a field of a branch."""
+    mask = 0
+    while name in message.SELECTED:
+        name, _ = message.SELECTED[name]
+        mask |= places[name].mask
+    return mask
 
 
 def _named_by_transfer(
@@ -221,12 +235,11 @@ def _judge_of_codes(field: Field, named: Collection[int]) -> Judge | None:
 
 
 def _judge_of_values(field: Field) -> Judge | None:
-    # Half a step of room: raw value x factor is not always the number that is printed.
-    room = abs(field.factor) / 2
-    low, high = field.minimum - room, field.maximum + room
-    ends = (field.offset, field.offset + field.factor * ((1 << field.length) - 1))
-    if low <= min(ends) and max(ends) <= high:
-        return _STATES.get if field.states else None
+    low, high = _range(field)
+    if not field.signal.is_float and field.length <= MOST_BITS:
+        ends = [field.offset + field.factor * end for end in field.signal.raw_limits]
+        if low <= min(ends) and max(ends) <= high:
+            return _STATES.get if field.states else None
 
     def judge(value: Value) -> SignalKind | None:
         if isinstance(value, SignalState):
@@ -235,3 +248,11 @@ def _judge_of_values(field: Field) -> Judge | None:
         return "out of range" if outside else None
 
     return judge
+
+
+def _range(field: Field) -> tuple[float, float]:
+    """The range, with half a step of room: raw value x factor is not always what is printed."""
+    if isinstance(field, NumberField):
+        return field.minimum, field.maximum
+    room = abs(field.factor) / 2
+    return field.minimum - room, field.maximum + room
