@@ -44,7 +44,7 @@ def hang() -> Iterator[Hang]:
     yield hang
     hang.release()
     for thread in threading.enumerate():
-        if thread.name.startswith("swapcan"):
+        if thread.name.startswith("typedcan"):
             thread.join(30.0)
 
 

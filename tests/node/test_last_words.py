@@ -198,7 +198,7 @@ def test_one_who_hangs_or_fails_keeps_nobody_from_speaking(
     for speaker in speakers:
         words.discard(speaker)
     for thread in threading.enumerate():
-        if thread.name == "swapcan-last-words":
+        if thread.name == "typedcan-last-words":
             thread.join(30.0)
 
 

@@ -115,7 +115,7 @@ def test_a_maker_that_hangs_keeps_nothing_on(rough: RoughBus, far: can.BusABC, h
     assert len(trailing_offs(heard + rest(far))) >= 5
     hang.release()
     for thread in threading.enumerate():
-        if thread.name == "swapcan-VCU-send":
+        if thread.name == "typedcan-VCU-send":
             thread.join(30.0)
     assert rest(far) == []  # what it makes after all is not sent
 
@@ -209,7 +209,7 @@ def test_ctrl_c_while_a_node_is_stopped_does_not_keep_it_on(
     with pytest.raises(KeyboardInterrupt):
         node.stop()
     for thread in threading.enumerate():
-        if thread.name.startswith("swapcan-VCU"):
+        if thread.name.startswith("typedcan-VCU"):
             thread.join(30.0)
     assert len(trailing_offs(heard + rest(far))) >= 5
     node.stop()
@@ -224,7 +224,7 @@ def test_an_interrupt_at_the_first_step_of_stopping_does_not_keep_it_on(
     node.set(ON)
     heard = frames_until(far, is_on)
     for thread in threading.enumerate():
-        if thread.name.startswith("swapcan-VCU"):
+        if thread.name.startswith("typedcan-VCU"):
             monkeypatch.setattr(thread, "join", raising(KeyboardInterrupt, times=1))
     with pytest.raises(KeyboardInterrupt):
         node.stop()

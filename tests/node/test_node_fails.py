@@ -54,7 +54,7 @@ def st2() -> can.Message:
 
 
 def threads_of(name: str) -> list[threading.Thread]:
-    return [each for each in threading.enumerate() if each.name.startswith(f"swapcan-{name}")]
+    return [each for each in threading.enumerate() if each.name.startswith(f"typedcan-{name}")]
 
 
 def assert_has_ended(node: Node, failed: Recorder, error: Make) -> None:

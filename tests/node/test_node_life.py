@@ -157,7 +157,7 @@ def test_a_callback_that_raises_is_logged_and_stops_nothing(
         bmu.set(B2V_ST2(), period=0.01)
         heard.wait(2)
     record = caplog.records[0]
-    assert (record.name, record.levelname) == ("swapcan", "ERROR")
+    assert (record.name, record.levelname) == ("typedcan", "ERROR")
     assert record.exc_info
     assert record.exc_info[0] is ZeroDivisionError
 
@@ -172,7 +172,7 @@ def test_a_callback_can_stop_its_node(near: can.BusABC, far: can.BusABC) -> None
 
     node.on(B2V_ST2, stop)
     node.start()
-    threads = [thread for thread in threading.enumerate() if thread.name.startswith("swapcan-VCU")]
+    threads = [thread for thread in threading.enumerate() if thread.name.startswith("typedcan-VCU")]
     near.send(can.Message(arbitration_id=B2V_ST2.FRAME_ID, data=bytes(8)))
     assert stopped.wait(2.0)
     node.start()  # perhaps before the old thread has left the callback

@@ -135,7 +135,7 @@ def test_a_maker_that_fails_leaves_its_cycle_out_and_stops_nothing(
     assert len(ear.times(B2V_ST2)) == 3
     assert gaps(ear.times(B2V_ST1)) == pytest.approx([0.1] * 4, abs=0.0011)
     (record,) = caplog.records
-    assert record.name == "swapcan"
+    assert record.name == "typedcan"
     assert record.exc_info
     assert record.exc_info[0] is ZeroDivisionError
 

@@ -169,7 +169,7 @@ def test_nobody_stands_in_for_one_who_comes_round(
     with vcu:
         vcu.set(ON)
         assert all(far.recv(30.0) for _ in range(5))
-    assert started == ["swapcan-VCU-send", "swapcan-VCU-receive"]
+    assert started == ["typedcan-VCU-send", "typedcan-VCU-receive"]
 
 
 def test_who_receives_again_takes_over_again(rough: RoughBus, far: can.BusABC, vcu: Node) -> None:
@@ -189,10 +189,10 @@ def test_who_receives_again_takes_over_again(rough: RoughBus, far: can.BusABC, v
         rough.before_recv = hang_once
         assert entered.wait(30.0)
         changed.wait_until(lambda event: event.new is State.LOST, timeout=30.0)
-        assert "swapcan-VCU-stand-in" in {thread.name for thread in threading.enumerate()}
+        assert "typedcan-VCU-stand-in" in {thread.name for thread in threading.enumerate()}
         goes_on.set()
         far.send(st2())
-        assert heard.wait(2, timeout=30.0) == ["swapcan-VCU-receive"] * 2
+        assert heard.wait(2, timeout=30.0) == ["typedcan-VCU-receive"] * 2
         stand_in = [each for each in threading.enumerate() if each.name.endswith("stand-in")]
         for thread in stand_in:
             thread.join(30.0)

@@ -16,7 +16,7 @@ from swapcan.messages import B2V_ST2, BSU_BMS_0
 
 
 def threads() -> list[threading.Thread]:
-    return [each for each in threading.enumerate() if each.name.startswith("swapcan")]
+    return [each for each in threading.enumerate() if each.name.startswith("typedcan")]
 
 
 async def first(link: Link, count: int) -> list[int | None]:

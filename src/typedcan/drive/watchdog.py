@@ -83,7 +83,7 @@ class Watchdog:
             self.beat()
             self._ended = threading.Event()
             self._thread = threading.Thread(
-                target=self._watch, args=(self._ended,), name="swapcan-watchdog", daemon=True
+                target=self._watch, args=(self._ended,), name="typedcan-watchdog", daemon=True
             )
             self._thread.start()
         return self
@@ -114,7 +114,7 @@ class Watchdog:
         for bus in self._buses:
             bus.send_safe_codes()
         if first:  # what it writes to may be what the program hangs in
-            threading.Thread(target=self._warn, name="swapcan-warning", daemon=True).start()
+            threading.Thread(target=self._warn, name="typedcan-warning", daemon=True).start()
 
 
 def _now() -> float:

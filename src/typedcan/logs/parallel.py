@@ -68,7 +68,7 @@ def read_many(
     numbers = context.RawArray(c_int64, 2 * len(paths) + 1)
     summary = Summary()
     with ExitStack() as stack:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="swapcan-")))
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="typedcan-")))
         pool = stack.enter_context(
             ProcessPoolExecutor(jobs, context, initializer=_set_up, initargs=(numbers, protocol))
         )

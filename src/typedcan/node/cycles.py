@@ -18,7 +18,7 @@ from typedcan.wire.acting import acting_fields
 from typedcan.wire.errors import SendingError
 from typedcan.wire.message import Message
 
-_LOG = logging.getLogger("swapcan")
+_LOG = logging.getLogger("typedcan")
 
 Maker = Callable[[], Iterable[Message]]
 """Gives the frames of one cycle."""

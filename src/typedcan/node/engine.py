@@ -37,7 +37,7 @@ from typedcan.wire.protocol import Protocol
 Leave = Literal["safe", "silent"]
 """How a node is left: with the safe codes of what acts, or without a word."""
 
-_LOG = logging.getLogger("swapcan")
+_LOG = logging.getLogger("typedcan")
 
 _LOOK = 0.1
 """Seconds after which the thread that sends looks whether the one that receives hangs."""
@@ -227,7 +227,7 @@ class Engine:
         self.dispatcher.end_streams()
 
     def _thread(self, what: str, loop: Callable[[Life], None], life: Life) -> threading.Thread:
-        name = f"swapcan-{self._name}-{what}"
+        name = f"typedcan-{self._name}-{what}"
         return threading.Thread(target=self._live, args=(loop, life), name=name, daemon=True)
 
     def _live(self, loop: Callable[[Life], None], life: Life) -> None:

@@ -15,7 +15,7 @@ from typedcan.transfer import Problem, Value
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 
-_LOG = logging.getLogger("swapcan")
+_LOG = logging.getLogger("typedcan")
 
 _RAISED = "a callback raised; the node goes on"
 

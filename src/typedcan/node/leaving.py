@@ -81,7 +81,7 @@ class Leaving:
         """The same where the thread that sends does not come back; this does."""
         if not self._safe or self.is_elsewhere or not self._transmitter.acting:
             return
-        beside = threading.Thread(target=self.leave, name="swapcan-leave", daemon=True)
+        beside = threading.Thread(target=self.leave, name="typedcan-leave", daemon=True)
         try:
             beside.start()
         except RuntimeError:  # no thread can be started any more

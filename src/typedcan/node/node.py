@@ -174,7 +174,7 @@ class Node(Running):
 
         Event classes are `Received`, for all messages, `Fault`, those of supervision and
         transfers, `BusLost`, `BusBack`, `SendFailed`, `ReceiveFailed` and `NodeFailed`. Returns
-        what takes the callback off. An exception of a callback is logged, by "swapcan", and stops
+        what takes the callback off. An exception of a callback is logged, by "typedcan", and stops
         nothing; what is no `Exception`, such as `SystemExit`, ends the node.
         """
         return self._engine.dispatcher.on(kind, callback)

@@ -20,7 +20,7 @@ from typedcan.node.request import Requests
 Notice = BusLost | BusBack | SendFailed | ReceiveFailed
 """What is noticed in any thread, and told in the one that receives."""
 
-_LOG = logging.getLogger("swapcan")
+_LOG = logging.getLogger("typedcan")
 
 _WAIT = 0.1
 """Seconds in one call of the bus: as long as a node takes to stop, and to notice a new request."""

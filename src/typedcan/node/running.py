@@ -13,7 +13,7 @@ from typedcan.node.errors import StillActingError
 from typedcan.node.transmit import Sends
 from typedcan.wire.message import Message
 
-_LOG = logging.getLogger("swapcan")
+_LOG = logging.getLogger("typedcan")
 
 
 class Running:

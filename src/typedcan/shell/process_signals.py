@@ -17,7 +17,7 @@ from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Any, Protocol, Self
 
-_LOG = logging.getLogger("swapcan")
+_LOG = logging.getLogger("typedcan")
 
 _TYPED_STOP = frozenset({"SIGTSTP"})
 """Ctrl-Z: stops a process until it is told to go on."""
@@ -258,7 +258,7 @@ class LastWords:
 
 def _started(action: Callable[[], object]) -> threading.Thread | None:
     """The thread in which something is being done; None where it had to be done here."""
-    thread = threading.Thread(target=action, name="swapcan-last-words", daemon=True)
+    thread = threading.Thread(target=action, name="typedcan-last-words", daemon=True)
     try:
         thread.start()
     except RuntimeError:  # the interpreter is ending, or there are too many threads

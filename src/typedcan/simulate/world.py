@@ -135,7 +135,7 @@ class World:
         self._is_over = False
         for node in self._nodes:
             node.sends = "all"
-        self._thread = threading.Thread(target=self._live_apart, name="swapcan-world", daemon=True)
+        self._thread = threading.Thread(target=self._live_apart, name="typedcan-world", daemon=True)
         if not isinstance(self.clock, SimulatedClock):
             LAST_WORDS.add(self)
         self._thread.start()

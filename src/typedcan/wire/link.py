@@ -134,7 +134,7 @@ class Link:
         that came in meanwhile is the next that this link returns. Raises `can.CanError`.
         """
         pending: Future[can.Message | None] | None = None
-        thread = ThreadPoolExecutor(1, "swapcan-listen")
+        thread = ThreadPoolExecutor(1, "typedcan-listen")
         try:
             while True:
                 pending = thread.submit(self._next_frame, _WAIT_IN_THREAD)

@@ -46,7 +46,7 @@ class _Reader(_Watched, io.BufferedReader):
 
 class _Copy(_Watched, io.BufferedRandom):
     def __init__(self, path: Path) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="swapcan-")
+        self._folder = tempfile.TemporaryDirectory(prefix="typedcan-")
         copy = Path(self._folder.name, path.name)
         shutil.copyfile(path, copy)
         super().__init__(io.FileIO(copy, "rb+"))

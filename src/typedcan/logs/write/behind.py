@@ -47,7 +47,7 @@ class _Behind:
 @contextmanager
 def behind(sink: Sink) -> Iterator[Sink]:
     """A sink that writes to another in a thread; on leaving, all is written, or given up."""
-    with ThreadPoolExecutor(1, "swapcan-write") as thread:
+    with ThreadPoolExecutor(1, "typedcan-write") as thread:
         queue = _Behind(sink, thread)
         try:
             yield queue
