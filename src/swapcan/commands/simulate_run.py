@@ -16,7 +16,7 @@ from swapcan.nodes.plan import PlannedStep
 from swapcan.nodes.simulation import Simulation
 from swapcan.wire import Codec
 from typedcan.drive.departure import Departure
-from typedcan.drive.driving import LEAVING, LOOK_OUT, Driving, Left
+from typedcan.drive.driving import LEAVING, Driving, Left, look_out_time
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.node.clock import SystemClock
 from typedcan.shell.console import CommandError, note, warn
@@ -35,6 +35,7 @@ def allowed_nodes(
     """
     acting = acting_nodes(names)
     rest = tuple(name for name in names if name not in acting)
+    who = who_acts(acting)
     without = "without --yes-drive-the-bus"
     if acting and not rest:
         raise CommandError(f"{who_acts(acting)} would make others act: not simulated {without}")
@@ -46,7 +47,7 @@ def allowed_nodes(
             able = ", ".join(node for node in fault.nodes if node in acting)
             raise CommandError(f"{fault}: it is for {able}, which is not simulated {without}")
     if acting:
-        note(f"{who_acts(acting)} would make others act: left out {without}")
+        note(f"{who} would make others act: left out {without}")
     return rest
 
 
@@ -101,7 +102,8 @@ class LivingNodes:
             )
             interrupts.at_once, interrupts.hangs = self._end_what_acts, lambda: driving.hangs
             if self._looks_out:
-                note(f"looking for others who send what is to be sent, for {LOOK_OUT:g} s")
+                seconds = look_out_time(played)
+                note(f"looking for others who send what is to be sent, for {seconds:g} s")
                 driving.look_out()
             if not interrupts.is_over:
                 self._live(driving)

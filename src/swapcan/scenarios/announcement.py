@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.nodes.plan import PlannedStep
 from swapcan.scenarios.scenario import Scenario
-from typedcan.drive.driving import LEAVING, LOOK_OUT
+from typedcan.drive.driving import LEAVING, look_out_time
 from typedcan.simulate.faults import PlannedFault
 from typedcan.wire.message import Message
 
@@ -53,7 +53,8 @@ def announcement(scenario: Scenario, nodes: Sequence[str]) -> Iterator[str]:
     for node in nodes:
         for kind in PROTOCOL.sent_by(node):
             yield f"  {_sent(kind)}"
-    yield f"  {LOOK_OUT:g} s before: it only listens, and ends if somebody else sends one of these"
+    seconds = look_out_time(kind for node in nodes for kind in PROTOCOL.sent_by(node))
+    yield f"  {seconds:g} s before: it only listens, and ends if somebody else sends one of these"
     lines = [(0.0, f"{node}: {_AT_FIRST[node]}") for node in nodes]
     for step in scenario.steps(nodes):
         lines += _step_lines(step)

@@ -9,7 +9,7 @@ from typedcan.commands.bus_options import add_bus_options, add_consent, is_virtu
 from typedcan.commands.tool import Tool, add_dbc_option
 from typedcan.commands.transcript import values_text
 from typedcan.commands.values import message_named, message_of
-from typedcan.drive.driving import LOOK_OUT, Driving
+from typedcan.drive.driving import Driving, look_out_time
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.node.clock import SystemClock
 from typedcan.shell.command_line import Command
@@ -57,7 +57,8 @@ def _run(tool: Tool, options: argparse.Namespace) -> int:
         raise CommandError(f"{message.NAME} {acting}: not sent without --yes-drive-the-bus")
     with open_bus(options, virtual=virtual) as bus:
         if looks_out:
-            note(f"looking for another {message.SENDER} for {LOOK_OUT:g} s")
+            seconds = look_out_time([type(message)])
+            note(f"looking for another {message.SENDER} for {seconds:g} s")
             with NotingBus(bus, codec, lambda _: None, played=[type(message)]) as noting:
                 Driving([noting], clock=SystemClock()).look_out()
         frame = Link(bus, codec).send(message, timeout=_TIMEOUT)

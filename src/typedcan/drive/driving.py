@@ -8,7 +8,8 @@ commanded holds until the timeout of who receives it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from enum import Enum
 from functools import partial
@@ -24,7 +25,10 @@ from typedcan.simulate.world import World
 from typedcan.wire.message import Message
 
 LOOK_OUT = 2.0
-"""Seconds in which nobody else may send what is to be sent: twice the longest period."""
+"""Seconds at least in which nobody else may send what is to be sent."""
+
+_LOOK_OUT_PERIODS = 2
+"""The same in periods of what each sender sends most often."""
 
 LEAVING = 5.0
 """Seconds at most in which others are told to switch off before nothing is sent any more."""
@@ -43,6 +47,15 @@ _TROUBLE = 1.0
 
 _ATTEMPTS = 100
 """How often leaving begins anew where something breaks into it."""
+
+
+def look_out_time(played: Iterable[type[Message]]) -> float:
+    """Seconds in which nobody else may send any of those messages."""
+    shortest: dict[str, float] = {}
+    for kind in played:
+        if kind.PERIOD:
+            shortest[kind.SENDER] = min(kind.PERIOD, shortest.get(kind.SENDER, math.inf))
+    return max([LOOK_OUT, *(_LOOK_OUT_PERIODS * period for period in shortest.values())])
 
 
 class BusyBusError(TypedcanError):
@@ -108,8 +121,12 @@ class Driving:
         return self._watchdog.is_late
 
     def look_out(self, seconds: float | None = None) -> None:
-        """See that nobody else sends what is to be sent; raises `BusyBusError`, and as `live`."""
-        self.live(self._hearing(), LOOK_OUT if seconds is None else seconds)
+        """See that nobody else sends what is to be sent, for `look_out_time` unless it is said.
+
+        Raises `BusyBusError`, and as `live`.
+        """
+        played = [kind for bus in self._buses for kind in bus.played]
+        self.live(self._hearing(), look_out_time(played) if seconds is None else seconds)
 
     def live(self, world: World, seconds: float) -> None:
         """Let time pass, unless it is to end, or cannot go on.

@@ -71,6 +71,7 @@ class NotingBus(can.BusABC):
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
+        self.played = tuple(played)
         self._played = {_identifier(kind): kind for kind in played}
         self._times = FrameTimes(self._clock)
         self._record = InOrder(note)
