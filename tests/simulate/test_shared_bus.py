@@ -56,3 +56,22 @@ def test_shutting_a_share_down_leaves_the_bus_open(buses: tuple[can.BusABC, can.
     SharedBus(bus).share().shutdown()
     bus.send(can.Message(arbitration_id=0x100))
     assert identifiers(outside) == [0x100]
+
+
+def test_what_another_sends_with_an_identifier_of_ones_own_arrives(
+    buses: tuple[can.BusABC, can.BusABC],
+) -> None:
+    bus, outside = buses
+    shared = SharedBus(bus)
+    with shared.share() as one, shared.share() as two:
+        one.send(can.Message(arbitration_id=0x100, data=b"\x01"))
+        outside.send(can.Message(arbitration_id=0x100, data=b"\x02"))
+        outside.send(can.Message(arbitration_id=0x100, data=b"\x01", is_extended_id=False))
+        heard = [two.recv(0), two.recv(0), two.recv(0), two.recv(0)]
+        assert [(bytes(each.data), each.is_extended_id) for each in heard if each] == [
+            (b"\x01", True),
+            (b"\x02", True),
+            (b"\x01", False),
+        ]
+        assert identifiers(one) == [0x100, 0x100]
+    assert (shared.sent, shared.received) == (1, 2)

@@ -8,14 +8,15 @@ from copy import copy
 
 import can
 
+from typedcan.simulate.echoes import Echoes
+
 
 class SharedBus:
     """Hands a bus to several nodes, as many adapters can be opened only once.
 
     What one node sends goes out on the bus and to the other nodes here, what arrives on the bus
-    goes to all of them. Some interfaces, udp_multicast among them, give back what was sent on
-    them: a frame with an identifier that is sent here is taken for that. All nodes live in one
-    thread. The bus is lent.
+    goes to all of them, save for what an interface gives back of what was sent on it. All nodes
+    live in one thread. The bus is lent.
 
     ``sent`` and ``received`` count the frames that went out on the bus and came in from others.
     """
@@ -25,7 +26,7 @@ class SharedBus:
         self.sent = 0
         self.received = 0
         self._shares: list[Share] = []
-        self._own: set[int] = set()
+        self._echoes = Echoes()
 
     def share(self) -> Share:
         """A bus for one more node."""
@@ -39,8 +40,8 @@ class SharedBus:
 
     def send(self, frame: can.Message, timeout: float | None, sender: Share) -> None:
         """Send a node's frame; raises as the bus does."""
-        self._own.add(frame.arbitration_id)
         self.bus.send(frame, timeout)
+        self._echoes.sent(frame, time.monotonic())
         self.sent += 1
         for share in self._shares:
             if share is not sender:
@@ -52,9 +53,11 @@ class SharedBus:
     def receive(self, timeout: float | None) -> None:
         """Take the next frame of the bus, if one comes in time; raises as the bus does."""
         frame = self.bus.recv(timeout)
-        while frame and frame.arbitration_id in self._own:
+        while frame and self._echoes.is_one(frame, time.monotonic()):
             frame = self.bus.recv(0)
-        if frame:
+        if frame is None:
+            self._echoes.heard_all(time.monotonic())
+        else:
             self.received += 1
             for share in self._shares:
                 share.arrived.append(frame)
