@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import threading
+
 import can
 import pytest
 from node.rough_bus import (
+    PATIENCE,
+    Hang,
     RoughBus,
     frames_until,
     is_off,
@@ -19,7 +23,9 @@ from swapcan import StillActingError
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import V2B_CMD, HvCommand
 from swapcan.node import Node
+from typedcan.node import leaving
 from typedcan.node.clock import Clock, SimulatedClock, SystemClock
+from typedcan.simulate import world as world_module
 from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.world import World
@@ -83,6 +89,77 @@ def test_a_bus_that_takes_nothing_any_more_is_said_to_be_live(
 
     with pytest.raises(StillActingError, match="TAKE IT FOR LIVE") as raised:
         live()
+    assert raised.value.messages == ("V2B_CMD",)
+    assert isinstance(raised.value.__cause__, OSError)
+
+
+def test_off_is_the_last_word_where_sending_fails_at_first(
+    driver: Driver, rough: RoughBus, far: can.BusABC
+) -> None:
+    with World(driver):
+        heard = frames_until(far, is_on)
+        rough.before_send = raising(OSError, times=7)
+    assert len(trailing_offs(heard + rest(far))) == 5
+    assert driver.node.acting == ()
+
+
+@pytest.mark.parametrize("place", ["sending", "waiting"])
+def test_ctrl_c_while_a_world_is_left_comes_after_the_safe_codes(
+    driver: Driver,
+    rough: RoughBus,
+    far: can.BusABC,
+    place: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    interrupt = raising(KeyboardInterrupt, times=1)
+
+    def live() -> list[can.Message]:
+        with World(driver):
+            heard = frames_until(far, is_on)
+            if place == "sending":
+                rough.before_send = interrupt
+            else:
+                monkeypatch.setattr("typedcan.node.leaving.time.sleep", interrupt)
+        return heard
+
+    if place == "waiting":
+        with pytest.raises(KeyboardInterrupt):
+            live()
+    else:
+        live()
+    assert len(rest_of(far)) >= 5
+    assert driver.node.acting == ()
+
+
+def rest_of(bus: can.BusABC) -> list[can.Message]:
+    """The commands for off since the last one for on, whatever their counters."""
+    frames = rest(bus)
+    on = [number for number, frame in enumerate(frames) if is_on(frame)]
+    return frames[on[-1] + 1 if on else 0 :]
+
+
+def test_a_world_that_hangs_in_a_bus_is_left_all_the_same(
+    driver: Driver, rough: RoughBus, far: can.BusABC, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for module in (world_module, leaving):
+        monkeypatch.setattr(module, "_PATIENCE", 0.2)
+    hang, hangs = Hang(), threading.Event()
+
+    def begin_to_hang(_: can.Message) -> None:
+        hangs.set()
+        hang()
+
+    def live() -> None:
+        with World(driver):
+            frames_until(far, is_on)
+            rough.before_send = begin_to_hang
+            assert hangs.wait(PATIENCE)
+
+    try:
+        with pytest.raises(StillActingError, match="the bus hangs") as raised:
+            live()
+    finally:
+        hang.release()
     assert raised.value.messages == ("V2B_CMD",)
 
 

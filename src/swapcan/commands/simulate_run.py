@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 
 import can
 
@@ -19,6 +19,7 @@ from typedcan.drive.departure import Departure
 from typedcan.drive.driving import LEAVING, Driving, Left, look_out_time
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.node.clock import SystemClock
+from typedcan.node.errors import StillActingError
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.simulate.faults import PlannedFault
@@ -112,17 +113,15 @@ class LivingNodes:
 
     def _live(self, driving: Driving) -> None:
         shared = [SharedBus(bus) for bus in self._buses]
-        with ExitStack() as stack:
-            simulation = stack.enter_context(
-                Simulation(
-                    self._names,
-                    shared[0].share,
-                    shared[1].share if len(shared) > 1 else None,
-                    plan=self._plan,
-                    faults=self._options.faults,
-                    seed=self._options.seed,
-                )
-            )
+        simulation = Simulation(
+            self._names,
+            shared[0].share,
+            shared[1].share if len(shared) > 1 else None,
+            plan=self._plan,
+            faults=self._options.faults,
+            seed=self._options.seed,
+        )
+        try:
             report = SimulationReport(simulation, as_json=self._options.json)
             note(f"simulating {', '.join(self._names)} on {self._name}, Ctrl-C ends")
             leaving = departure(simulation, self._buses, self._options.faults)
@@ -132,6 +131,9 @@ class LivingNodes:
                 lived = simulation.world.elapsed
                 self._leave(driving, leaving)
                 note(report.summary(lived, *shared))
+        finally:
+            with suppress(StillActingError):  # that has been said
+                simulation.close()
 
     def _leave(self, driving: Driving, leaving: Departure) -> None:
         if not any(bus.has_acted for bus in self._buses):

@@ -21,6 +21,8 @@ from swapcan.nodes.vcu import VIN, Vcu
 from swapcan.nodes.world import World
 from swapcan.plant.battery import Battery
 from typedcan.node.clock import Clock, SimulatedClock, SystemClock
+from typedcan.node.errors import StillActingError
+from typedcan.node.leaving import raise_or_note
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.times import PlanError
@@ -144,15 +146,24 @@ class Simulation:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        self.close()
+        try:
+            self.close()
+        except StillActingError as failure:
+            raise_or_note("the simulation", failure, error)
 
     def close(self) -> None:
-        """End what the nodes have commanded, unless that is simulated too, and close all buses."""
-        if not self.wires and hasattr(self, "world"):
-            self.world.leave()
-        for buses in self.buses.values():
-            for bus in buses:
-                bus.shutdown()
+        """End what the nodes have commanded, unless that is simulated too, and close all buses.
+
+        Raises `StillActingError` where a bus did not take the safe codes; all are closed then too.
+        """
+        try:
+            live = None if self.wires or not hasattr(self, "world") else self.world.leave()
+        finally:
+            for buses in self.buses.values():
+                for bus in buses:
+                    bus.shutdown()
+        if live:
+            raise live
 
     def inject(self, fault: PlannedFault) -> None:
         """Let those have a fault from now on that it is for."""

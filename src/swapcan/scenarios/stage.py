@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 
 import can
@@ -15,6 +16,7 @@ from swapcan.wire import Codec
 from typedcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.node.clock import Clock, SystemClock
+from typedcan.node.errors import StillActingError
 from typedcan.simulate.echoes import Echoes
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from typedcan.simulate.shared_bus import SharedBus
@@ -129,13 +131,17 @@ class Stage:
         driving.look_out()
         if self._is_over():
             return
-        with self._simulation(scenario, nodes, bus) as simulation:
+        simulation = self._simulation(scenario, nodes, bus)
+        try:
             leave = partial(driving.leave, departure(simulation, [bus], scenario.faults))
             self.left = Left.UNKNOWN
             try:
                 driving.live(simulation.world, scenario.seconds)
             finally:
                 self.left = leave()
+        finally:
+            with suppress(StillActingError):  # ``left`` says so
+                simulation.close()
 
     def _simulation(self, scenario: Scenario, nodes: Sequence[str], bus: NotingBus) -> Simulation:
         """The played nodes, with what the scenario plans."""

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import threading
 import time
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 
 from typedcan.model.errors import one_line
 from typedcan.node.errors import StillActingError
 from typedcan.node.port import Port
 from typedcan.node.transmit import Transmitter
+from typedcan.wire.message import Message
+
+_LOG = logging.getLogger("typedcan")
 
 _TIMES = 5
 """How often the safe codes are sent: one frame can get lost."""
@@ -64,47 +70,94 @@ class Leaving:
         """
         if not self._safe or self.is_elsewhere:
             return
-        failure: BaseException | None = None
-        taken = 0
-        for _ in range(_TRIES if self._transmitter.acting else 0):
-            failure = self._send()
-            taken += failure is None
-            if once or taken == _TIMES:
-                break
-            time.sleep(_BETWEEN)
-        self.failure = self._still_acting(failure)
-        is_main = threading.current_thread() is threading.main_thread()
-        if failure and is_main and not isinstance(failure, Exception):
-            raise failure
+        failure = send_until_taken([self._send] if self._transmitter.acting else [], once=once)
+        self.failure = still_acting(self._transmitter.acting, failure)
+        raise_what_ends_more(failure)
 
     def leave_beside(self) -> None:
         """The same where the thread that sends does not come back; this does."""
         if not self._safe or self.is_elsewhere or not self._transmitter.acting:
             return
-        beside = threading.Thread(target=self.leave, name="typedcan-leave", daemon=True)
-        try:
-            beside.start()
-        except RuntimeError:  # no thread can be started any more
-            self.leave(once=True)
-        else:
-            beside.join(_PATIENCE)
-            if beside.is_alive():
-                self.failure = self._still_acting(None)
+        if not done_beside(self.leave, partial(self.leave, once=True)):
+            self.failure = still_acting(self._transmitter.acting, None)
 
     def _send(self) -> BaseException | None:
-        try:
-            failure = self._transmitter.send_safe_codes()
-        except BaseException as error:  # noqa: BLE001 - nothing keeps this from trying again
-            return error
+        failure = self._transmitter.send_safe_codes()
         if failure:
             with suppress(Exception):
                 self._port.renew()
         return failure
 
-    def _still_acting(self, failure: BaseException | None) -> StillActingError | None:
-        names = [message.NAME for message in self._transmitter.acting]
-        if not names:
-            return None
-        error = StillActingError(names, one_line(failure) if failure else "the bus hangs")
-        error.__cause__ = failure
+
+def send_until_taken(
+    senders: Sequence[Callable[[], BaseException | None]], *, once: bool = False
+) -> BaseException | None:
+    """Have safe codes sent by turns, several times, as long as a bus takes them or may yet.
+
+    Parameters
+    ----------
+    senders
+        Each sends what it has to, and returns what the bus has raised, or raises.
+    once
+        Takes no time.
+
+    Returns what failed in the last turn, or has broken into them.
+    """
+    failure: BaseException | None = None
+    broken_into: BaseException | None = None
+    taken = 0
+    for _ in range(_TRIES if senders else 0):
+        failures = [_tried(send) for send in senders]
+        failure = next(filter(None, failures), None)
+        taken += failure is None
+        if once or taken == _TIMES:
+            break
+        broken_into = _tried(partial(time.sleep, _BETWEEN)) or broken_into
+    return failure or broken_into
+
+
+def done_beside(action: Callable[[], object], instead: Callable[[], object]) -> bool:
+    """Do something in a thread that may hang, or else ``instead`` here; whether it has ended."""
+    beside = threading.Thread(target=action, name="typedcan-leave", daemon=True)
+    try:
+        beside.start()
+    except RuntimeError:  # no thread can be started any more
+        instead()
+        return True
+    beside.join(_PATIENCE)
+    return not beside.is_alive()
+
+
+def _tried(action: Callable[[], BaseException | None]) -> BaseException | None:
+    try:
+        return action()
+    except BaseException as error:  # noqa: BLE001 - nothing keeps this from trying again
         return error
+
+
+def still_acting(
+    messages: Sequence[Message], failure: BaseException | None
+) -> StillActingError | None:
+    """What is wrong where messages act all the same; None where there are none."""
+    if not messages:
+        return None
+    names = [message.NAME for message in messages]
+    error = StillActingError(names, one_line(failure) if failure else "the bus hangs")
+    error.__cause__ = failure
+    return error
+
+
+def raise_what_ends_more(failure: BaseException | None) -> None:
+    """In the main thread raise what is not an `Exception`, such as `KeyboardInterrupt`."""
+    is_main = threading.current_thread() is threading.main_thread()
+    if failure and is_main and not isinstance(failure, Exception):
+        raise failure
+
+
+def raise_or_note(who: str, failure: BaseException, error: BaseException | None) -> None:
+    """Raise what is wrong with leaving, or tell it beside the error that a block was left with."""
+    if error is None:
+        raise failure
+    text = f"{who}: {one_line(failure)}"
+    error.add_note(text)
+    _LOG.error("%s", text)

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 import time
 from types import TracebackType
 from typing import Self
 
 from typedcan.node.engine import Engine
 from typedcan.node.errors import StillActingError
+from typedcan.node.leaving import raise_or_note
 from typedcan.node.transmit import Sends
 from typedcan.wire.message import Message
-
-_LOG = logging.getLogger("typedcan")
 
 
 class Running:
@@ -69,10 +67,7 @@ class Running:
         try:
             self._engine.stop(patience)
         except StillActingError as failure:
-            if error is None:
-                raise
-            error.add_note(f"{self.name}: {failure}")
-            _LOG.error("%s: %s", self.name, failure)
+            raise_or_note(self.name, failure, error)
 
     @property
     def acting(self) -> tuple[Message, ...]:

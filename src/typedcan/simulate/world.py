@@ -6,27 +6,27 @@ import heapq
 import itertools
 import math
 import threading
-import time
 from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Self
 
-from typedcan.model.errors import one_line
 from typedcan.node.clock import Clock, SimulatedClock, SystemClock
 from typedcan.node.errors import StillActingError
+from typedcan.node.leaving import (
+    done_beside,
+    raise_or_note,
+    raise_what_ends_more,
+    send_until_taken,
+    still_acting,
+)
 from typedcan.shell.process_signals import LAST_WORDS
 from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedWire
 from typedcan.wire.errors import SendingError
+from typedcan.wire.message import Message
 
 STEP = 0.01
 """Seconds from one step of the participants to the next."""
-
-_TIMES = 5
-"""How often safe codes are sent in the end."""
-
-_BETWEEN = 0.05
-"""Seconds from one time to the next."""
 
 _PATIENCE = 1.5
 """Seconds to wait for the thread to end; one that hangs in a driver never does."""
@@ -148,30 +148,40 @@ class World:
         traceback: TracebackType | None,
     ) -> None:
         self._stop.set()
-        if self._thread:
-            self._thread.join(_PATIENCE)
+        try:
+            live = self._leave_after(self._thread)
+        finally:
             self._thread = None
-        self.leave()
-        LAST_WORDS.discard(self)
+            LAST_WORDS.discard(self)
         failure, self._failure = self._failure, None
-        names = [message.NAME for node in self._nodes for message in node.acting]
-        if names and not isinstance(self.clock, SimulatedClock):
-            still_acting = StillActingError(names, "the bus does not take them")
-            still_acting.__cause__, failure = failure, still_acting
-        if failure and error is None:
-            raise failure
-        if failure and error:
-            error.add_note(one_line(failure))
+        if live:
+            live.__cause__, failure = failure or live.__cause__, live
+        if failure:
+            raise_or_note("the world", failure, error)
 
-    def leave(self) -> None:
-        """In real time send the safe codes of what acts, several times: a frame can get lost."""
-        acting = [node for node in self._nodes if node.acting]
-        if isinstance(self.clock, SimulatedClock):
-            return
-        for _ in range(_TIMES if acting else 0):
-            for node in acting:
-                node.send_safe_codes()
-            time.sleep(_BETWEEN)
+    def leave(self) -> StillActingError | None:
+        """In real time send the safe codes of what acts, several times: a frame can get lost.
+
+        Returns what is wrong where something acts all the same.
+        """
+        nodes = [node for node in self._nodes if node.acting] if self._acting else []
+        failure = send_until_taken([node.send_safe_codes for node in nodes])
+        raise_what_ends_more(failure)
+        return still_acting(self._acting, failure)
+
+    def _leave_after(self, thread: threading.Thread | None) -> StillActingError | None:
+        """Leave once a thread has ended, or beside it where it hangs, in a driver for example."""
+        if thread:
+            thread.join(_PATIENCE)
+            if thread.is_alive():
+                done_beside(self.leave, self.leave)
+                return still_acting(self._acting, None)
+        return self.leave()
+
+    @property
+    def _acting(self) -> list[Message]:
+        simulated = isinstance(self.clock, SimulatedClock)
+        return [] if simulated else [each for node in self._nodes for each in node.acting]
 
     def _live_apart(self) -> None:
         try:
