@@ -11,10 +11,12 @@ from uuid import uuid4
 import can
 import pytest
 from hypothesis import settings
+from node.bench import Recorder
 
 from dbcspec.config import find_config
 from dbcspec.project import Project, load
 from typedcan.model.protocol import Protocol
+from typedcan.shell import process_signals
 
 # Many tests run commands as processes of their own: let those keep their bytecode.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -90,3 +92,33 @@ def near(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
 def far(open_bus: Callable[..., can.BusABC]) -> can.BusABC:
     """The other end of `near`."""
     return open_bus()
+
+
+@pytest.fixture
+def untouched_signals() -> Iterator[None]:
+    """Nobody listens to any, whatever has started this test run; afterwards all is as it was."""
+    before = {number: signal.getsignal(number) for number in signal.valid_signals()}
+    ours = {number for number, handler in before.items() if handler is not None}
+    for number in ours - {signal.SIGPIPE, signal.SIGXFSZ, signal.SIGKILL, signal.SIGSTOP}:
+        ctrl_c = number == signal.SIGINT
+        signal.signal(number, signal.default_int_handler if ctrl_c else signal.SIG_DFL)
+    yield
+    for number in ours:
+        if signal.getsignal(number) != before[number]:
+            signal.signal(number, before[number])
+
+
+@pytest.fixture
+def survived(monkeypatch: pytest.MonkeyPatch) -> Recorder:
+    """Signals do not do what they do: this process is to live."""
+    survived = Recorder()
+    monkeypatch.setattr(process_signals, "_let_it", lambda number, _: survived(number))
+    return survived
+
+
+@pytest.fixture
+def as_on_windows(monkeypatch: pytest.MonkeyPatch) -> int:
+    """The number of Ctrl-Break, which is that of another signal here."""
+    monkeypatch.delattr(signal, "SIGTTIN")
+    monkeypatch.setattr(signal, "SIGBREAK", 21, raising=False)
+    return 21

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
@@ -11,11 +10,9 @@ from pathlib import Path
 import can
 import pytest
 from commands.running import bus_options
-from node.bench import Bench, Ear, Recorder
+from node.bench import Bench, Ear
 from node.programs import Program, running
 from node.rough_bus import Hang, RoughBus, made_rough
-
-from typedcan.shell import process_signals
 
 
 @pytest.fixture(autouse=True)
@@ -65,33 +62,3 @@ def program(tmp_path: Path) -> Iterator[Callable[[str], AbstractContextManager[P
     options = bus_options("udp_multicast")
     with can.Bus(ignore_config=True, **options) as bus:
         yield lambda text: running(text, options, bus, tmp_path)
-
-
-@pytest.fixture
-def untouched_signals() -> Iterator[None]:
-    """Nobody listens to any, whatever has started this test run; afterwards all is as it was."""
-    before = {number: signal.getsignal(number) for number in signal.valid_signals()}
-    ours = {number for number, handler in before.items() if handler is not None}
-    for number in ours - {signal.SIGPIPE, signal.SIGXFSZ, signal.SIGKILL, signal.SIGSTOP}:
-        ctrl_c = number == signal.SIGINT
-        signal.signal(number, signal.default_int_handler if ctrl_c else signal.SIG_DFL)
-    yield
-    for number in ours:
-        if signal.getsignal(number) != before[number]:
-            signal.signal(number, before[number])
-
-
-@pytest.fixture
-def survived(monkeypatch: pytest.MonkeyPatch) -> Recorder:
-    """Signals do not do what they do: this process is to live."""
-    survived = Recorder()
-    monkeypatch.setattr(process_signals, "_let_it", lambda number, _: survived(number))
-    return survived
-
-
-@pytest.fixture
-def as_on_windows(monkeypatch: pytest.MonkeyPatch) -> int:
-    """The number of Ctrl-Break, which is that of another signal here."""
-    monkeypatch.delattr(signal, "SIGTTIN")
-    monkeypatch.setattr(signal, "SIGBREAK", 21, raising=False)
-    return 21

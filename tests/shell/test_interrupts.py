@@ -21,6 +21,16 @@ pytestmark = [
     pytest.mark.usefixtures("untouched_signals"),
 ]
 
+NAMES = [
+    *("SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGVTALRM", "SIGPROF"),
+    *("SIGIO", "SIGXCPU", "SIGPWR", "SIGRTMIN", "SIGRTMAX", "SIGBREAK"),
+]
+
+
+def handlers() -> dict[int, object]:
+    """What each signal of this process is handled by."""
+    return {number: signal.getsignal(number) for number in signal.valid_signals()}
+
 
 def status_of(interrupts: Interrupts) -> object:
     """With what it leaves the program; None where it does not."""
@@ -48,16 +58,45 @@ def test_ctrl_c_ends_what_goes_on_and_a_second_one_the_program() -> None:
     assert interrupts.status == 130
 
 
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2"])
+@pytest.mark.parametrize("name", [name for name in NAMES if hasattr(signal, name)])
 def test_other_signals_end_the_program_with_their_number(name: str) -> None:
     number = getattr(signal, name)
+    before = handlers()
     with Interrupts() as interrupts:
         signal.raise_signal(number)
         signal.raise_signal(signal.SIGINT)
         assert interrupts.is_over
         assert status_of(interrupts) == 128 + number
     assert interrupts.status == 128 + number
-    assert signal.getsignal(number) is signal.SIG_DFL
+    assert handlers() == before
+    assert before[number] is signal.SIG_DFL
+
+
+def test_what_ends_a_process_goes_before_ctrl_c_and_that_before_ctrl_z() -> None:
+    with Interrupts() as interrupts:
+        signal.raise_signal(signal.SIGTSTP)
+        assert interrupts.is_over
+        signal.raise_signal(signal.SIGINT)
+        assert interrupts.status == 128 + signal.SIGINT
+        signal.raise_signal(signal.SIGTERM)
+        assert interrupts.status == 128 + signal.SIGTERM
+
+
+def test_signals_that_end_no_process_are_left_alone() -> None:
+    with Interrupts() as interrupts:
+        for name in ("SIGCHLD", "SIGCONT", "SIGWINCH", "SIGURG"):
+            signal.raise_signal(getattr(signal, name))
+    assert not interrupts.is_over
+
+
+def test_where_the_program_hangs_a_signal_breaks_into_that() -> None:
+    with Interrupts() as interrupts:
+        interrupts.hangs = lambda: True
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        with pytest.raises(SystemExit, match=str(128 + signal.SIGTERM)):
+            signal.raise_signal(signal.SIGTERM)
+        assert interrupts.is_over
 
 
 def test_ctrl_z_stops_the_process_where_it_is_time_to_and_it_stays_over(
@@ -77,13 +116,17 @@ def test_ctrl_z_stops_the_process_where_it_is_time_to_and_it_stays_over(
     assert interrupts.status == 128 + signal.SIGTSTP
 
 
-def test_a_terminal_that_is_anothers_stops_it_at_once(survived: Recorder) -> None:
+@pytest.mark.parametrize("name", ["SIGTTIN", "SIGTTOU"])
+def test_a_terminal_that_is_anothers_stops_it_once_what_acts_was_ended(
+    survived: Recorder, name: str
+) -> None:
+    number = getattr(signal, name)
     done: list[int] = []
     with Interrupts() as interrupts:
         interrupts.at_once = lambda: done.append(len(survived.seen))
-        signal.raise_signal(signal.SIGTTIN)
+        signal.raise_signal(number)
         assert done == [0]
-        assert survived.seen == [signal.SIGTTIN]
+        assert survived.seen == [number]
         assert interrupts.is_over
 
 
