@@ -102,6 +102,23 @@ def test_signals_have_value_unit_label_and_age(monitored: Monitored) -> None:
     assert (state.value, state.label, state.age) == ("2", "HV closed", 0.5)
 
 
+def test_signals_are_found_by_name_title_label_and_mark(monitored: Monitored) -> None:
+    monitored.hear(frame("B2V_ST2", 0.0, SOC=80, SOH=102), frame("B2V_ST1", 0.0, BMS=2))
+    picture = monitored.at(0.0)
+    soc, soh = signal(picture, "B2V_ST2", "SOC"), signal(picture, "B2V_ST2", "SOH")
+    assert all(soc.matches(text) for text in ("st2_soc", "state of CHARGE", ""))
+    assert (soh.matches("invalid"), soc.matches("invalid")) == (True, False)
+    assert signal(picture, "B2V_ST1", "ST1_BMS").matches("hv closed")
+
+
+def test_characters_are_shown_as_such_and_what_is_none_as_its_code(monitored: Monitored) -> None:
+    data = bytes([1, *b"LZ", 0x07, *b"JL4"])
+    monitored.hear(can.Message(arbitration_id=0x18E1F3D0, data=data + b"X"))
+    rows = monitored.at(0.0).signals("V2B_VIN")
+    assert [row.value for row in rows] == ["1", "L", "Z", "0x07", "J", "L", "4", "X"]
+    assert [row.label for row in rows] == [""] * 8
+
+
 def test_signals_that_never_came_have_a_title_and_no_value(monitored: Monitored) -> None:
     soc = signal(monitored.at(1.0), "B2V_ST2", "SOC")
     assert (soc.title, soc.value, soc.age, soc.mark) == ("Pack state of charge", "", None, None)
@@ -152,6 +169,7 @@ def test_after_clearing_each_kind_of_fault_is_counted_from_nothing(monitored: Mo
             *(frame("B2V_ST1", at, ALIV=3) for _ in range(2)),
             can.Message(arbitration_id=0x123, timestamp=at),
             can.Message(is_error_frame=True, timestamp=at),
+            can.Message(arbitration_id=0x1883D0F3, data=bytes(8), is_fd=True, timestamp=at),
         ]
 
     monitored.hear(*one_of_each(0.0), *one_of_each(0.1))
@@ -160,10 +178,11 @@ def test_after_clearing_each_kind_of_fault_is_counted_from_nothing(monitored: Mo
     monitored.hear(frame("B2V_ST1", 0.2, ALIV=4), *one_of_each(0.2))
     totals = monitored.at(0.3).totals
     assert (totals.length, totals.checksum, totals.foreign, totals.errors) == (1, 1, 1, 1)
+    assert totals.format == 1
     assert totals.counter == 2  # a 3 after the 4, and another 3
     assert totals.seconds == pytest.approx(0.2)
     status = monitored.session.status()
-    assert (status.frames, status.messages) == (totals.frames, totals.messages) == (7, 3)
+    assert (status.frames, status.messages) == (totals.frames, totals.messages) == (8, 4)
 
 
 def test_a_remote_frame_loads_the_bus_without_data(monitored: Monitored) -> None:

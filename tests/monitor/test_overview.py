@@ -64,6 +64,7 @@ def test_a_text_is_told_and_shown_once_it_came_twice(second: Protocol) -> None:
     monitored = watching(second)
     monitored.hear(*serial(b"A7K2", 0.0))
     assert shown(monitored, 0.1) == {}
+    assert (monitored.at(0.1).look.name, monitored.at(0.1).look.summary()) == ("overview", [])
     assert view(monitored, 0.1, 80) == [""]
     monitored.hear(*serial(b"A7K2", 0.2))
     assert "Serial number: A7K2" in texts(monitored)
