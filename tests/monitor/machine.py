@@ -27,9 +27,10 @@ def _dbc() -> Database:
 
 
 def frame(name: str, at: float = 0.0, **signals: float) -> can.Message:
-    """A frame of a message, by cantools; it has one signal or two, and the others are 0."""
+    """A frame of a message, by cantools; signals that are not given are 0, but for branches."""
     message = _dbc().get_message_by_name(name)
-    values = {signal.name: signal.offset for signal in message.signals} | signals
+    always = {each.name: each.offset for each in message.signals if not each.multiplexer_ids}
+    values = always | signals
     return can.Message(
         arbitration_id=message.frame_id,
         is_extended_id=message.is_extended_frame,

@@ -59,10 +59,11 @@ def test_every_message_with_a_period_has_to_come_whoever_sends_it() -> None:
         "Motor_Description_Of_Its_Maker": "never seen",
         "Key_Pressed": "seen",
         "Lamp": "late",  # for two periods
+        "Pages": "never seen",
     }
     told = {str(each.event) for each in monitored.session.events()}
     assert "Key_Pressed: never seen -> alive" in told
-    assert monitored.at(1.3).messages[-1].state == "lost"
+    assert row(monitored.at(1.3), "Lamp").state == "lost"
     monitored.at(6.0)
     told = {str(each.event) for each in monitored.session.events()}
     assert any(text.startswith("Lamp: ") and "lost" in text for text in told)
@@ -103,6 +104,34 @@ def test_signals_and_alarms_are_those_of_the_database() -> None:
     assert monitored.at(1.6).alarms == ()
 
 
+def test_signals_of_branches_are_shown_as_they_came_last() -> None:
+    monitored = machine()
+
+    def shown(at: float) -> list[tuple[str, str, str | None, float | None]]:
+        rows = monitored.at(at).signals("Pages")
+        return [(row.value, row.label, row.mark, row.age) for row in rows]
+
+    monitored.hear(frame("Pages", 1.0, Page=1, State=1))
+    assert shown(1.0) == [
+        ("1", "", None, 0.0),
+        ("", "", None, None),
+        ("1", "Burnt out", "alarm", 0.0),
+    ]
+    before = monitored.at(1.0)
+    monitored.hear(frame("Pages", 2.0, Page=0, Hours=7))
+    assert shown(2.5) == [
+        ("0", "", None, 0.5),
+        ("7", "", None, 0.5),
+        ("1", "Burnt out", "alarm", 1.5),
+    ]
+    assert before.signals("Pages")[1].value == ""
+    (alarm,) = monitored.at(2.5).alarms
+    assert (alarm.signal, alarm.age) == ("State", 1.5)
+    monitored.hear(frame("Pages", 3.0, Page=1, State=0))
+    assert shown(3.0)[2] == ("0", "Normal", None, 0.0)
+    assert monitored.at(3.0).alarms == ()
+
+
 def test_what_json_has_of_a_protocol_without_a_glance() -> None:
     monitored = machine()
     monitored.hear(frame("Motor_Status", 0.0, Heat=1))
@@ -118,7 +147,7 @@ def test_what_json_has_of_a_protocol_without_a_glance() -> None:
             "age": 0.5,
         }
     ]
-    assert [each["is_extended"] for each in told["messages"]] == [False, True, False, False]
+    assert [each["is_extended"] for each in told["messages"]] == [False, True, False, False, False]
     assert told["totals"]["load"] is None
 
 

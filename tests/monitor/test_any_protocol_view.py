@@ -43,6 +43,7 @@ def test_messages_stand_with_their_whole_names_and_the_widths_of_their_identifie
         ["Motor_Description_Of_Its_Maker", "0x00000100", "Motor"],
         ["Key_Pressed", "0x101", "Panel"],
         ["Lamp", "0x200", "Light"],
+        ["Pages", "0x201", "Light"],
     ]
     assert "on event" in rows_of(lines)[2]
 
@@ -81,7 +82,7 @@ def test_the_help_names_the_panes_that_there_are() -> None:
 def test_what_a_terminal_would_obey_in_a_unit_is_shown() -> None:
     monitored = machine()
     monitored.hear(frame("Lamp", Brightness=50))
-    lines = screen(monitored, "G", "enter")
+    lines = screen(monitored, "G", "k", "enter")
     assert r"50 \x1b[2Jlux" in lines[4]
 
 

@@ -70,7 +70,8 @@ class Picture:
     """What a `Watch` knows at ``time``, in seconds of its clock.
 
     ``messages`` has all of the protocol, in its order, ``alarms`` those that are active, of all
-    nodes; ``look`` is what the glance shows.
+    nodes; ``look`` is what the glance shows. ``last`` is what each message said last, ``branches``
+    what it said last of each field of a branch.
     """
 
     time: float
@@ -81,11 +82,13 @@ class Picture:
     look: Look
     foreign: tuple[ForeignRow, ...]
     last: Mapping[type[Message], Seen]
+    branches: Mapping[type[Message], Mapping[str, Seen]]
 
     def signals(self, name: str) -> tuple[SignalRow, ...]:
         """The signals of a message; raises `UnknownMessageError`."""
         kind = self.protocol.message(name)
-        return signal_rows(self.protocol, kind, self.last.get(kind), self.time)
+        branches = self.branches.get(kind, {})
+        return signal_rows(self.protocol, kind, self.last.get(kind), branches, self.time)
 
     def as_dict(self) -> dict[str, Any]:
         """The same as JSON has it, without the signals."""

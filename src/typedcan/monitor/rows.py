@@ -137,12 +137,20 @@ class SignalRow:
 
 
 def signal_rows(
-    protocol: Protocol, kind: type[Message], seen: Seen | None, now: float
+    protocol: Protocol,
+    kind: type[Message],
+    seen: Seen | None,
+    branches: Mapping[str, Seen],
+    now: float,
 ) -> tuple[SignalRow, ...]:
-    """The rows of all signals of a message, empty of values where it never came."""
+    """The rows of all signals of a message, empty of values where it never came.
+
+    Those of branches, by their names, are what the last frame with their branch had.
+    """
     rows: list[SignalRow] = []
     for field in kind.FIELDS.values():
-        value: Value = getattr(seen.received.message, field.name) if seen else None
+        last = branches.get(field.name) if field.name in kind.SELECTED else seen
+        value: Value = getattr(last.received.message, field.name) if last else None
         text, label = _value_and_label(field, value)
         rows.append(
             SignalRow(
@@ -152,7 +160,7 @@ def signal_rows(
                 unit=field.unit,
                 label=label,
                 mark=mark_of(protocol, kind, field.name, value),
-                age=now - seen.at if seen else None,
+                age=now - last.at if last else None,
             )
         )
     return tuple(rows)

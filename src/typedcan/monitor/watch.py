@@ -57,6 +57,7 @@ class Watch:
         self._bitrate = bitrate or _bitrate_of(codec.protocol)
         self._receiver = Receiver(codec)
         self._last: dict[type[Message], Seen] = {}
+        self._branches: dict[type[Message], dict[str, Seen]] = {}
         self.clear(now)
 
     def clear(self, now: float) -> None:
@@ -122,13 +123,17 @@ class Watch:
                 for (frame_id, is_extended), (frames, at) in sorted(self._foreign.items())
             ),
             last=last,
+            branches={kind: dict(fields) for kind, fields in self._branches.items()},
         )
 
     def _take_message(
         self, received: Received[Message], now: float
     ) -> tuple[WatchEvent | Fault, ...]:
         message = received.message
-        self._last[type(message)] = Seen(received, now)
+        seen = self._last[type(message)] = Seen(received, now)
+        if message.SELECTED:
+            there = (name for name in message.SELECTED if getattr(message, name) is not None)
+            self._branches.setdefault(type(message), {}).update(dict.fromkeys(there, seen))
         events = (*received.faults, *self._supervisor.take(received, now))
         return (*events, *self._glance.take(message, now))
 
