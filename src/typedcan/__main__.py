@@ -16,6 +16,7 @@ _HELP = {
     "decode": "print the messages in a log file",
     "convert": "write log files as tables: Parquet, Arrow, CSV or MF4",
     "plot": "draw signals of a log file over time",
+    "conform": "judge whether logs, or what a bus carries, keep to the protocol",
     "send": "send one message; what is not given goes out as invalid, or 0 if that is idle",
     "listen": "print the messages on a bus as they arrive, until Ctrl-C",
     "monitor": "watch a bus in the terminal: messages with their periods, and signals",
@@ -25,11 +26,12 @@ _EXAMPLES = """examples:
   python -m typedcan --dbc truck.dbc decode drive.blf
   python -m typedcan --dbc truck.dbc convert drive.blf -o drive.parquet
   python -m typedcan --protocol acme.can listen -i socketcan -c can0
+  python -m typedcan --dbc truck.dbc conform drive.blf
   python -m typedcan --dbc truck.dbc monitor -i socketcan -c can0
   python -m typedcan --protocol acme.can send Engine_Status speed=1200 -i virtual -c 0
 
-exit status: 0 all is well, 2 the command could not do its work, 3 a log is damaged: what could be
-read was used"""
+exit status: 0 all is well, 1 a log does not conform, 2 the command could not do its work, 3 a log
+is damaged: what could be read was used"""
 
 _COMMAND_EXAMPLES = {
     "decode": """  python -m typedcan --dbc truck.dbc decode drive.blf
@@ -37,6 +39,14 @@ _COMMAND_EXAMPLES = {
     "convert": """  python -m typedcan --dbc truck.dbc convert drive.blf -o drive.parquet
   python -m typedcan --dbc truck.kcd convert drive.asc -o drive.csv --raster 100ms""",
     "plot": """  python -m typedcan --dbc truck.dbc plot drive.blf --signals Speed -o speed.html""",
+    "conform": """  python -m typedcan --dbc truck.dbc conform drive.blf
+  python -m typedcan --protocol acme.can conform drive.asc --html report.html --junit report.xml
+  python -m typedcan --dbc truck.dbc conform -i socketcan -c can0 --duration 60s
+
+Judged by what the protocol says of its messages: identifier, length, period, checksum, counter,
+codes, ranges, reserved bits, requests, groups of readings.
+
+exit status: 0 it conforms, 1 it does not, 2 it could not be judged, or not all of it""",
     "listen": """  python -m typedcan --dbc truck.dbc listen -i socketcan -c can0 --seconds 10""",
     "monitor": """  python -m typedcan --dbc truck.dbc monitor -i socketcan -c can0
   python -m typedcan --protocol acme.can monitor -i socketcan -c can0 --record drive.blf
@@ -84,7 +94,7 @@ def _add(commands: Subcommands[Parser], name: str) -> None:
 
 PROGRAM = Program(
     name="python -m typedcan",
-    description="Any CAN protocol: decode and convert logs, watch a bus, send a message.",
+    description="Any CAN protocol: decode, convert and judge logs, watch a bus, send a message.",
     epilog=_EXAMPLES,
     commands=_HELP,
     add=_add,

@@ -98,6 +98,38 @@ def test_plot_draws_signals_of_a_database(tmp_path: Path) -> None:
     assert "℃" in output.read_text("utf-8")
 
 
+WIDTHS_LOG = "(0.1) can0 100#0102\n(0.2) can0 00000100#07\n(0.3) can0 100#03\n"
+
+
+def test_conform_judges_a_log_by_a_database_alone(tmp_path: Path) -> None:
+    log, report = tmp_path / "widths.log", tmp_path / "report.xml"
+    log.write_text(WIDTHS_LOG, "ascii")
+    done = run("--dbc", WIDTHS, "conform", log, "--junit", report, status=1)
+    assert "must  frame-length: Frames have the bytes of their message" in done.stdout
+    assert "First 0.000 s  AA SHORTID: 2 bytes instead of 1" in done.stdout
+    assert "()" not in done.stdout  # no clause
+    assert 'message="Frames have the bytes of their message: found: 1' in report.read_text("utf-8")
+    found = json.loads(run("conform", "--dbc", WIDTHS, log, "--json", status=1).stdout)
+    assert found["verdict"] == "violates"
+    assert found["logs"][0]["frames"] == {"": 1, "LONGID": 1, "SHORTID": 1}
+
+
+def test_conform_lists_the_rules_that_a_protocol_gives() -> None:
+    _, _, *rules = run("--dbc", WIDTHS, "conform", "--list-rules").stdout.splitlines()
+    listed = {rule.split()[0] for rule in rules}
+    assert {"frame-length", "frame-kind", "foreign-frames", "event-repeated"} <= listed
+    assert not listed & {"identifier-priority", "checksum", "answer-in-time", "bus-load"}
+
+
+def test_conform_judges_nodes_by_name_whatever_the_case_of_their_letters(tmp_path: Path) -> None:
+    log = tmp_path / "widths.log"
+    log.write_text(WIDTHS_LOG, "ascii")
+    done = run("--dbc", WIDTHS, "conform", log, "--judge", "aa", "--json", status=1)
+    assert json.loads(done.stdout)["logs"][0]["nodes"] == ["AA"]
+    done = run("--dbc", WIDTHS, "conform", log, "--judge", "cc", status=2)
+    assert done.stderr == "typedcan: there is no node 'cc'; AA, BB\n"
+
+
 def test_a_generated_package_serves_by_its_name_and_by_its_folder(generated: Path) -> None:
     package = next(generated.rglob("protocol.json")).parent
     name = ".".join(package.relative_to(generated).parts)

@@ -74,7 +74,7 @@ def parent() -> Iterator[Parent]:
 
 
 def _main() -> None:
-    import swapcan.commands.conformance  # noqa: F401 - is loaded once for all
+    import swapcan.commands.conform_driving  # noqa: F401 - is loaded once for all
     from typedcan.drive import driving
 
     driving.LOOK_OUT = 0.3

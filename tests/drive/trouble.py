@@ -14,7 +14,7 @@ from scenarios.lines import values
 from scenarios.rig import Bench
 
 # Tests replace the scenarios: what a command imports when it is chosen is to know the real ones.
-from swapcan.commands import conform_choice, conform_lists  # noqa: F401
+from swapcan.commands import conform_driving  # noqa: F401
 from swapcan.messages import V2B_CMD, BmsState, HvCommand, RelayState
 from swapcan.nodes.plan import plan_of
 from swapcan.scenarios.scenario import Scenario

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import can
@@ -19,7 +20,7 @@ import typedcan
 from dbcspec.config import find_config
 from dbcspec.project import load
 from typedcan.databases.dbc import read_dbc
-from typedcan.judge import Judge, JudgeError, Judgement, rules_for
+from typedcan.judge import Judge, JudgeError, Judgement, judge_log, rules_for
 from typedcan.judge.report import to_csv, to_html, to_json, to_junit
 from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol
@@ -199,6 +200,38 @@ def test_a_database_file_alone_gives_rules(tmp_path: Path) -> None:
     for text in (to_json, to_junit, to_csv):
         assert "Engine_Gear" in text([judgement], "en")
     assert "truck" in to_html([judgement], [()], "en", {})
+
+
+@pytest.mark.parametrize(
+    ("frame", "texts"),
+    [
+        ("100##1{00}", []),
+        ("101#0000000000000000", []),
+        ("100#0000000000000000", ["a classical frame; it has to be a CAN FD frame"]),
+        ("100#R", ["a remote frame; it has to be a CAN FD frame"]),
+        ("101##1{00}", ["a CAN FD frame; it has to be a classical data frame"]),
+    ],
+)
+def test_frames_have_the_format_of_their_message(
+    tmp_path: Path, frame: str, texts: list[str]
+) -> None:
+    protocol = typed_protocol(read_dbc(FIXTURES / "cases" / "mixed.dbc"))
+    log = candump(tmp_path / "fd.log", f"0 can0 {frame.replace('{00}', '00' * 8)}")
+    result = judge_log(Judge(protocol), log).result("frame-kind")
+    assert [each.says() for each in result.occurrences] == texts
+
+
+def test_frames_of_can_fd_may_be_filled_up_and_no_longer(tmp_path: Path) -> None:
+    model = read_dbc(FIXTURES / "cases" / "mixed.dbc")
+    fd, classic = model.messages
+    protocol = typed_protocol(replace(model, messages=(replace(fd, length=9), classic)))
+    lines = (f"{size / 10} can0 100##1{'00' * size}" for size in (8, 12, 16))
+    log = candump(tmp_path / "fd.log", *lines)
+    result = judge_log(Judge(protocol), log).result("frame-length")
+    assert [each.says() for each in result.occurrences] == [
+        "8 bytes instead of 9",
+        "16 bytes instead of 9",
+    ]
 
 
 def test_a_message_of_nobody_is_judged_all_the_same(tmp_path: Path) -> None:

@@ -3,108 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import re
-from pathlib import Path
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from typedcan.commands.bus_options import add_bus_options
-from typedcan.commands.log_options import add_window_options, need
-from typedcan.commands.tool import completing_files
+from typedcan.commands.conform import add_listening, add_log_options, names
+from typedcan.commands.log_options import need
 from typedcan.shell.command_line import Command
-from typedcan.simulate.times import PlanError, seconds_of
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
-    logs = parser.add_argument(
-        "logs",
-        type=Path,
-        nargs="*",
-        metavar="LOG",
-        help="logs, each judged by itself: .asc, .blf, .csv, .log, .trc, .mf4 and others;"
-        " without any, a bus is judged",
-    )
-    completing_files(logs)
-    _add_choice(parser)
-    _add_reports(parser)
-    add_window_options(parser)
-    _add_live(parser)
+    add_log_options(parser, PROTOCOL.nodes)
+    add_listening(parser, "; with several scenarios one file each, such as bench-hv-on-off.blf")
     _add_driving(parser)
     add_bus_options(parser)
-
-
-def _add_choice(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("what is judged")
-    group.add_argument(
-        "--judge",
-        type=_nodes,
-        action="extend",
-        default=[],
-        metavar="NODE,...",
-        help=f"these nodes only, of {', '.join(PROTOCOL.nodes)}; each has to be there"
-        " (default: all that are there)",
-    )
-    for name, text in (("--only", "by these rules only"), ("--skip", "not by these rules")):
-        group.add_argument(
-            name, type=_names, action="extend", default=[], metavar="RULE,...", help=text
-        )
-    group.add_argument(
-        "--tolerance",
-        dest="tolerances",
-        type=_tolerance,
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="another value than a rule's own for what it allows",
-    )
-    group.add_argument(
-        "--strict", action="store_true", help="a recommendation counts like a demand"
-    )
-    group.add_argument("--list-rules", action="store_true", help="show the rules")
-    group.add_argument(
-        "--list-tolerances", action="store_true", help="show what they allow, and its name"
-    )
-
-
-def _add_reports(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("reports", "A file that is there already is replaced.")
-    for name, text in (
-        ("--html", "a page with plots, for people"),
-        ("--junit", "JUnit XML, for CI servers"),
-        ("--csv", "a table with a row per finding"),
-    ):
-        completing_files(group.add_argument(name, type=Path, metavar="FILE", help=text))
-    group.add_argument("--json", action="store_true", help="print JSON in place of the summary")
-    group.add_argument(
-        "--language",
-        choices=("en", "zh"),
-        default="en",
-        help="of summary and reports (default: en)",
-    )
-    group.add_argument(
-        "-v", "--verbose", action="store_true", help="name the rules that nothing breaks too"
-    )
-
-
-def _add_live(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group(
-        "a bus", "It is recorded, then the record is judged. Ctrl-C ends the recording early."
-    )
-    group.add_argument(
-        "--duration",
-        type=_duration,
-        metavar="TIME",
-        help="listen for so long: 60s, 500ms, 5m; a plain number is seconds (default: 1m)",
-    )
-    completing_files(
-        group.add_argument(
-            "--record",
-            type=Path,
-            metavar="FILE",
-            help="keep the record, in the format of the suffix, such as bench.blf; with several"
-            " scenarios one file each, such as bench-hv-on-off.blf",
-        )
-    )
 
 
 def _add_driving(parser: argparse.ArgumentParser) -> None:
@@ -119,7 +31,7 @@ def _add_driving(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--active",
-        type=_names,
+        type=names,
         action="extend",
         default=[],
         metavar="SCENARIO,...",
@@ -144,35 +56,13 @@ def _add_driving(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _names(text: str) -> list[str]:
-    return [name.strip() for name in text.split(",") if name.strip()]
-
-
 def _nodes(text: str) -> list[str]:
-    return [name.upper() for name in _names(text)]
-
-
-def _tolerance(text: str) -> tuple[str, float]:
-    name, equals, value = text.partition("=")
-    # Not all that Python takes for a number: neither inf nor nan, nor 1_000.
-    if not (equals and re.fullmatch(r"[0-9]+(\.[0-9]+)?([eE][-+]?[0-9]+)?", value.strip())):
-        raise argparse.ArgumentTypeError(f"expected NAME=NUMBER, not {text!r}")
-    return name.strip(), float(value)
-
-
-def _duration(text: str) -> float:
-    try:
-        seconds = seconds_of(re.sub(r"(?<=[0-9 ])m$", "min", text.strip()))
-    except PlanError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    if not seconds:
-        raise argparse.ArgumentTypeError("expected a time longer than none")
-    return seconds
+    return [name.upper() for name in names(text)]
 
 
 def _run(options: argparse.Namespace) -> int:
     need("numpy")
-    from swapcan.commands.conformance import run
+    from swapcan.commands.conform_driving import run
 
     return run(options)
 

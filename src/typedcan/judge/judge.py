@@ -13,7 +13,7 @@ from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.decoded import DecodedChunk
 from typedcan.judge.findings import Findings
 from typedcan.judge.judgement import Judgement, RuleResult
-from typedcan.judge.measure.channels import Channels, has_format, has_length
+from typedcan.judge.measure.channels import Channels, Formats, has_length
 from typedcan.judge.measure.left_over import keys_of, left_over
 from typedcan.judge.measure.load import LoadMeter
 from typedcan.judge.measure.periods import PeriodMeter
@@ -95,7 +95,7 @@ class Judge:
         self._keys = keys_of(protocol)
         self._load, self._periods = LoadMeter(), PeriodMeter(protocol)
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
-        self._channels = Channels()
+        self._channels, self._formats = Channels(), Formats(protocol)
         self._begin: float | None = None
         self._end = 0.0
         self._orders = 0
@@ -185,7 +185,7 @@ class Judge:
     def _own(self, message: type[Message], columns: MessageColumns) -> MessageColumns:
         """The frames that are what the standard says of them, on the channel of the first."""
         block, rows = columns.block, columns.rows
-        good = has_format(message, block, rows) & has_length(message, block, rows)
+        good = self._formats.fit(message, block, rows) & has_length(message, block, rows)
         if message.NAME not in self._channels.first:
             self._channels.note(message, block, rows[good])
         if len(block.channels) > 1:

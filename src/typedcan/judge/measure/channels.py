@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.model.protocol import Aspect
 from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
 
 _FORMAT = np.uint8(FrameFlag.EXTENDED | FrameFlag.FD | FrameFlag.REMOTE | FrameFlag.ERROR)
 
@@ -34,13 +36,24 @@ class Channels:
         return own
 
 
-def has_format(message: type[Message], block: FrameBlock, rows: Rows) -> NDArray[np.bool_]:
-    """Which of these frames have the identifier's width of a message and are CAN FD as it is."""
-    flags = FrameFlag.EXTENDED if message.EXTENDED else FrameFlag(0)
-    if message.MODEL.is_fd:
-        flags |= FrameFlag.FD
-    good: NDArray[np.bool_] = (block.flags[rows] & _FORMAT) == np.uint8(flags)
-    return good
+class Formats:
+    """Which frames have the format of their message: its identifier's width, and CAN FD or not.
+
+    Where nothing is known of CAN FD, as in a database that says nothing of it, either will do.
+    """
+
+    def __init__(self, protocol: Protocol) -> None:
+        known = Aspect.FRAME_FORMATS in protocol.model.carries
+        self._looked_at = _FORMAT if known else _FORMAT & ~np.uint8(FrameFlag.FD)
+
+    def fit(self, message: type[Message], block: FrameBlock, rows: Rows) -> NDArray[np.bool_]:
+        """Which of these frames have that of a message."""
+        flags = FrameFlag.EXTENDED if message.EXTENDED else FrameFlag(0)
+        if message.MODEL.is_fd:
+            flags |= FrameFlag.FD
+        due = np.uint8(flags) & self._looked_at
+        good: NDArray[np.bool_] = (block.flags[rows] & self._looked_at) == due
+        return good
 
 
 def has_length(message: type[Message], block: FrameBlock, rows: Rows) -> NDArray[np.bool_]:

@@ -62,6 +62,11 @@ def says(found: Occurrence, language: Language) -> str:
     return printable(found.says(language))
 
 
+def cited(text: str, rule: Rule) -> str:
+    """A text with the place that asks for what a rule does, where there is one."""
+    return f"{text} ({rule.clause})" if rule.clause else text
+
+
 def found(result: RuleResult, language: Language) -> str:
     """How often something was found."""
     text = words.FOUND.within(language)

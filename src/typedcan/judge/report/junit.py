@@ -92,7 +92,7 @@ def _case(result: RuleResult, language: Language, failing: Severity) -> ET.Eleme
     severity = result.rule.severity
     classname = f"swapcan.conform.{severity.name.lower()}"
     case = ET.Element("testcase", {"classname": classname, "name": result.rule.id, "time": "0"})
-    message = f"{result.rule.title.within(language)} ({result.rule.clause})"
+    message = facts.cited(result.rule.title.within(language), result.rule)
     if result.status is Status.NOT_JUDGED:
         text = words.NOTHING_TO_JUDGE.within(language)
         ET.SubElement(case, "skipped", {"message": printable(text)})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.findings import Occurrence
 from typedcan.judge.judgement import Judgement
-from typedcan.judge.measure.channels import Channels, has_format, has_length
+from typedcan.judge.measure.channels import Channels, Formats, has_length
 from typedcan.judge.report.facts import failed, other_worst
 from typedcan.judge.report.sources import Source, sources_of
 from typedcan.judge.report.thinned import Points
@@ -195,12 +195,12 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
         wanted=_wanted(sources),
     )
     messages = {source.message.NAME: source.message for source in sources}
-    channels = Channels()
+    channels, formats = Channels(), Formats(judgement.protocol)
     spans = _merged((each.begin, each.end) for each in opened)
     with open_log(path) as log:
         for block in log:
             time = block.timestamp - judgement.begin
-            _look(channels, messages.values(), block, time >= 0)
+            _look(channels, formats, messages.values(), block, time >= 0)
             shown = np.zeros(len(block), np.bool_)
             for begin, end in spans:
                 shown |= (time >= begin) & (time <= end)
@@ -208,7 +208,7 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
                 part = rows_of(block, np.flatnonzero(shown))
                 for columns in decoder.decode(part).messages.values():
                     message = messages[columns.name]
-                    kept = _judged(message, part, columns.rows)
+                    kept = _judged(formats, message, part, columns.rows)
                     kept &= channels.are_first(message, part, columns.rows)
                     own = rows_where(columns, kept)
                     for each in opened:
@@ -219,6 +219,7 @@ def _read(path: Path, judgement: Judgement, opened: Sequence[_Opened]) -> None:
 
 def _look(
     channels: Channels,
+    formats: Formats,
     messages: Iterable[type[Message]],
     block: FrameBlock,
     counts: NDArray[np.bool_],
@@ -227,14 +228,17 @@ def _look(
     for message in messages:
         if message.NAME not in channels.first:
             named = counts & (block.frame_id == message.FRAME_ID)
-            rows = np.flatnonzero(named & _judged(message, block, slice(None)))
+            rows = np.flatnonzero(named & _judged(formats, message, block, slice(None)))
             channels.note(message, block, rows)
 
 
 def _judged(
-    message: type[Message], block: FrameBlock, rows: NDArray[np.int64] | slice
+    formats: Formats,
+    message: type[Message],
+    block: FrameBlock,
+    rows: NDArray[np.int64] | slice,
 ) -> NDArray[np.bool_]:
-    return has_format(message, block, rows) & has_length(message, block, rows)
+    return formats.fit(message, block, rows) & has_length(message, block, rows)
 
 
 def _wanted(sources: Iterable[Source]) -> dict[str, list[str]]:

@@ -107,7 +107,7 @@ class _Writer:
         painted = self._paint(severity, _BOLD, _SEVERITY_COLOURS[rule.severity])
         title = printable(self._in(rule.title))
         yield f"  {painted}  {self._paint(rule.id, _BOLD)}{self._colon}{title}"
-        found = f"{facts.found(result, self._language)} ({printable(rule.clause)})"
+        found = printable(facts.cited(facts.found(result, self._language), rule))
         yield from self._wrapped(found, "    ", "      ")
         if self._verbose:
             yield from self._wrapped(printable(self._in(rule.purpose)), "    ", "    ")

@@ -6,7 +6,7 @@ from functools import partial
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said
-from typedcan.judge.measure.channels import has_format
+from typedcan.judge.measure.channels import Formats
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.misformed import judge_misformed
@@ -32,11 +32,12 @@ class FrameKind(Watcher):
     def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
         self._messages = protocol.messages
+        self._formats = Formats(protocol)
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         wrong_rows = {
-            message: rows[~has_format(message, chunk.block, rows)]
+            message: rows[~self._formats.fit(message, chunk.block, rows)]
             for message, rows in chunk.left_over.of_messages()
         }
         judge_misformed(self.findings, chunk, self._messages, wrong_rows, _describe)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said
-from typedcan.judge.measure.channels import has_format, has_length
+from typedcan.judge.measure.channels import Formats, has_length
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.misformed import judge_misformed
@@ -27,6 +27,7 @@ class FrameLength(Watcher):
     def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
         self._messages = protocol.messages
+        self._formats = Formats(protocol)
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
@@ -34,7 +35,7 @@ class FrameLength(Watcher):
         wrong_rows: dict[type[Message], NDArray[np.int64]] = {}
         for message, rows in chunk.left_over.of_messages():
             wrong = ~has_length(message, block, rows)
-            wrong_rows[message] = rows[wrong & has_format(message, block, rows)]
+            wrong_rows[message] = rows[wrong & self._formats.fit(message, block, rows)]
         judge_misformed(self.findings, chunk, self._messages, wrong_rows, _describe)
 
 

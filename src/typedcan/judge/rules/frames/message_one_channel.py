@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
-from typedcan.judge.measure.channels import has_format, has_length
+from typedcan.judge.measure.channels import Formats, has_length
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.frames.sightings import Sighting
@@ -29,6 +29,7 @@ class MessageOneChannel(Watcher):
     def __init__(self, findings: Findings, protocol: Protocol) -> None:
         super().__init__(findings)
         self._messages = protocol.messages
+        self._formats = Formats(protocol)
         self._first: dict[type[Message], str] = {}
         self._others: dict[tuple[type[Message], str], Sighting] = {}
 
@@ -44,7 +45,7 @@ class MessageOneChannel(Watcher):
                 row = own.order[own.first] - chunk.first_order
                 self._first[message] = str(block.channels[block.channel[row]])
         for message, rows in chunk.left_over.of_messages():
-            sound = has_format(message, block, rows) & has_length(message, block, rows)
+            sound = self._formats.fit(message, block, rows) & has_length(message, block, rows)
             if message in self._first and sound.any():
                 self._count(chunk, message, rows[sound])
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-from swapcan.conform import Judgement
+from typedcan.judge import Judgement
 from typedcan.judge.report import environment, moments, summary, to_csv, to_html, to_json, to_junit
 from typedcan.report.language import Language
 from typedcan.shell.console import CommandError, note, say_text

@@ -1,20 +1,23 @@
-"""What `swapcan conform` does; apart from its arguments, since it imports what is an extra."""
+"""What `conform` does; apart from its arguments, since it imports what is an extra."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 
-from swapcan.commands.conform_bus import judged_on_bus
-from swapcan.commands.conform_choice import Choice
-from swapcan.commands.conform_lists import list_rules, list_scenarios, list_tolerances
-from swapcan.commands.conform_reports import Judged, Reports
-from swapcan.conform import Judgement, Severity, Status, Verdict
+from typedcan.commands.conform_bus import judged_by_hearing
+from typedcan.commands.conform_choice import Choice
+from typedcan.commands.conform_reports import Judged, Reports
+from typedcan.judge import Judgement, Rule, Severity, Status, Verdict, rules_for
 from typedcan.logs.progress import Progress
 from typedcan.logs.window import moment
-from typedcan.shell.console import CommandError, note
+from typedcan.report.language import Language
+from typedcan.shell.console import CommandError, note, say
+from typedcan.shell.printing import aligned
+from typedcan.wire.protocol import Protocol
 
 CONFORMS, VIOLATES, NOT_JUDGED = 0, 1, 2
 """Exit statuses."""
@@ -26,22 +29,57 @@ _STATUSES = {
 }
 
 
-def run(given: argparse.Namespace) -> int:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judging:
+    """What a command line hands in.
+
+    Parameters
+    ----------
+    program
+        Its name.
+    protocol, rules
+        What frames are decoded by, and what to judge by.
+    more
+        Further rules that options may name, such as those of scenarios.
+    nodes
+        Whom to judge where nobody is named; none: all.
+    on_bus
+        The names of further options that ask for a bus.
+    judge_bus
+        Records a bus and judges the record.
+    """
+
+    program: str
+    protocol: Protocol
+    rules: tuple[Rule, ...]
+    more: tuple[Rule, ...] = ()
+    nodes: tuple[str, ...] = ()
+    on_bus: tuple[str, ...] = ()
+    judge_bus: Callable[[argparse.Namespace, Choice, ExitStack], list[Judged]] = judged_by_hearing
+
+
+def judging_of(program: str, protocol: Protocol) -> Judging:
+    """Judging by the rules that a protocol gives."""
+    return Judging(program=program, protocol=protocol, rules=rules_for(protocol))
+
+
+def run(judging: Judging, given: argparse.Namespace) -> int:
     """List something, or judge, print the summary, write reports, and return the exit status."""
-    for wanted, show in (
-        (given.list_rules, list_rules),
-        (given.list_tolerances, list_tolerances),
-        (given.list_scenarios, list_scenarios),
-    ):
-        if wanted:
-            show(given.language)
-            return CONFORMS
-    on_bus = _is_on_bus(given)
-    choice = Choice.of(given)
+    every = (*judging.rules, *judging.more)
+    if given.list_rules:
+        list_rules(every, given.language)
+        return CONFORMS
+    if given.list_tolerances:
+        list_tolerances(every, given.language)
+        return CONFORMS
+    on_bus = _is_on_bus(given, judging.on_bus)
+    choice = Choice.of(
+        given, judging.protocol, judging.rules, more=judging.more, nodes=judging.nodes
+    )
     reports = Reports.of(given)
     reports.check(given.logs if not on_bus else [given.record] if given.record else [])
     with ExitStack() as stack:
-        judged = judged_on_bus(given, choice, stack) if on_bus else _judged_logs(given, choice)
+        judged = judging.judge_bus(given, choice, stack) if on_bus else _judged_logs(given, choice)
         if not judged:
             return NOT_JUDGED
         status = _status(judged, choice)
@@ -49,11 +87,37 @@ def run(given: argparse.Namespace) -> int:
     return status
 
 
-def _is_on_bus(given: argparse.Namespace) -> bool:
+def list_rules(rules: Iterable[Rule], language: Language) -> None:
+    """Print a table of rules."""
+    rows = [
+        (
+            rule.id,
+            rule.severity.name.lower(),
+            ", ".join(rule.judges),
+            rule.clause,
+            rule.title.within(language),
+        )
+        for rule in rules
+    ]
+    for line in aligned(("rule", "severity", "nodes", "clause", "title"), rows):
+        say(line)
+
+
+def list_tolerances(rules: Iterable[Rule], language: Language) -> None:
+    """Print a table of what rules allow."""
+    rows = [
+        (each.name, f"{each.value:g}", each.unit, each.text.within(language))
+        for rule in rules
+        for each in rule.tolerances
+    ]
+    for line in aligned(("tolerance", "value", "unit", "text"), rows):
+        say(line)
+
+
+def _is_on_bus(given: argparse.Namespace, more: Sequence[str]) -> bool:
     """Whether a bus is to be judged; raises `CommandError` where that is not clear."""
-    names = ("interface", "channel", "bitrate", "bus_kwargs")
-    live = ("duration", "record", "active", "play", "yes_drive_the_bus")
-    told = [name for name in (*names, *live) if getattr(given, name)]
+    names = ("interface", "channel", "bitrate", "bus_kwargs", "duration", "record", *more)
+    told = [name for name in names if getattr(given, name)]
     if given.logs:
         if told:
             option = f"--{told[0].replace('_', '-')}"
@@ -63,10 +127,6 @@ def _is_on_bus(given: argparse.Namespace) -> bool:
         raise CommandError("what is to be judged? give logs, or a bus with -i and -c")
     if given.start or given.end:
         raise CommandError("--from and --to are for logs; --duration says how long to listen")
-    if given.active and given.duration:
-        raise CommandError("--duration is for listening; a scenario has its own")
-    if not given.active and (given.play or given.yes_drive_the_bus):
-        raise CommandError("nothing is sent without --active; see --list-scenarios")
     return True
 
 

@@ -8,14 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-from swapcan._generated.protocol import PROTOCOL
-from swapcan.conform import RULES, Judge, Judgement, Rule, judge_log
-from swapcan.scenarios.scenarios import SCENARIOS, scenarios_of
+from typedcan.judge import Judge, Judgement, Rule, judge_log
+from typedcan.judge.measure.presence import nodes_of
 from typedcan.logs.window import Moment
 from typedcan.shell.console import CommandError
-
-PACK = "BMU"
-"""Whom scenarios judge."""
+from typedcan.wire.protocol import Protocol
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +21,8 @@ class Choice:
 
     Parameters
     ----------
+    protocol, rules
+        What frames are decoded by, and all rules but those of scenarios.
     nodes, named
         Whom to judge, and those of them that were asked for by name.
     only, skip
@@ -34,6 +33,8 @@ class Choice:
         Whether a recommendation counts like a demand.
     """
 
+    protocol: Protocol
+    rules: tuple[Rule, ...]
     nodes: tuple[str, ...]
     named: tuple[str, ...]
     only: frozenset[str]
@@ -42,18 +43,33 @@ class Choice:
     strict: bool
 
     @classmethod
-    def of(cls, given: argparse.Namespace) -> Self:
-        """Read the options; raises `CommandError` for what there is not."""
-        rules = (*RULES, *reactions(given.active))
-        known = [rule.id for rule in rules]
-        names = [tolerance.name for rule in rules for tolerance in rule.tolerances]
+    def of(
+        cls,
+        given: argparse.Namespace,
+        protocol: Protocol,
+        rules: tuple[Rule, ...],
+        *,
+        more: Sequence[Rule] = (),
+        nodes: Sequence[str] = (),
+    ) -> Self:
+        """Read the options; raises `CommandError` for what there is not.
+
+        Parameters
+        ----------
+        more
+            Further rules that may be named.
+        nodes
+            Whom to judge where nobody is named; none: all.
+        """
+        every = (*rules, *more)
         limits = dict(given.tolerances)
-        _check("node", given.judge, PROTOCOL.nodes)
-        _check("rule", (*given.only, *given.skip), known)
-        _check("tolerance", limits, names)
-        named = tuple(dict.fromkeys(given.judge))
+        named = tuple(dict.fromkeys(_named(given.judge, protocol.nodes)))
+        _check("rule", (*given.only, *given.skip), [rule.id for rule in every])
+        _check("tolerance", limits, [each.name for rule in every for each in rule.tolerances])
         return cls(
-            nodes=named or ((PACK,) if given.active else PROTOCOL.nodes),
+            protocol=protocol,
+            rules=rules,
+            nodes=named or tuple(nodes) or nodes_of(protocol),
             named=named,
             only=frozenset(given.only),
             skip=frozenset(given.skip),
@@ -66,13 +82,13 @@ class Choice:
 
         Raises `CommandError` where no rule is left, and as `Judge`.
         """
-        Judge(self.nodes, self.rules(more), self.limits)
+        self._judge(more)
 
-    def rules(self, more: Sequence[Rule] = ()) -> tuple[Rule, ...]:
+    def chosen(self, more: Sequence[Rule] = ()) -> tuple[Rule, ...]:
         """The rules that are left; raises `CommandError` where there are none."""
         left = tuple(
             rule
-            for rule in dict.fromkeys((*RULES, *more))
+            for rule in dict.fromkeys((*self.rules, *more))
             if rule.id not in self.skip and (not self.only or rule.id in self.only)
         )
         if not left:
@@ -89,20 +105,28 @@ class Choice:
         watch: Callable[[int, int], None] | None = None,
     ) -> Judgement:
         """Judge a log, by more rules where there are; raises as `judge_log`."""
-        rules = self.rules(more)
-        return judge_log(
-            log, self.nodes, rules=rules, limits=self.limits, start=start, end=end, watch=watch
-        )
+        return judge_log(self._judge(more), log, start=start, end=end, watch=watch)
+
+    def _judge(self, more: Sequence[Rule]) -> Judge:
+        rules = self.chosen(more)
+        return Judge(self.protocol, rules, nodes=self.nodes, limits=self.limits, known=self.rules)
 
 
-def reactions(names: Iterable[str] = SCENARIOS) -> tuple[Rule, ...]:
-    """What those scenarios alone judge by, each rule once; raises `ScenarioError`."""
-    rules = dict.fromkeys(rule for each in scenarios_of(names) for rule in each.rules)
-    return tuple(rule for rule in rules if rule not in RULES)
+def _named(given: Iterable[str], nodes: Sequence[str]) -> list[str]:
+    """The nodes that were asked for, whatever the case of their letters."""
+    known = {node.casefold(): node for node in nodes} | {node: node for node in nodes}
+    named = [known.get(name, known.get(name.casefold(), name)) for name in given]
+    _check("node", named, nodes)
+    return named
+
+
+_LISTED = 5
+"""Names that a message lists; more are too long for a line."""
 
 
 def _check(what: str, given: Iterable[str], known: Sequence[str]) -> None:
     for name in given:
         if name not in known:
-            there = ", ".join(known) if len(known) <= len(PROTOCOL.nodes) else f"see --list-{what}s"
+            listed = what == "node" or len(known) <= _LISTED
+            there = ", ".join(known) if listed else f"see --list-{what}s"
             raise CommandError(f"there is no {what} {name!r}; {there}")
