@@ -141,3 +141,45 @@ def test_the_spec_that_is_written_of_its_matrix_has_the_checksum_too(project: Pa
     assert '"wire": 1,' in compared  # a matrix has no transfers
     assert '"message-checksum-same"' not in compared
     assert '"message-counter-same"' not in compared
+
+
+NODES = (
+    WITHOUT
+    + """
+import can
+from acme._generated.protocol import PROTOCOL
+from typedcan.node.node import Node
+from typedcan.transfer import Text, split
+
+with can.Bus("serial", "virtual") as near, can.Bus("serial", "virtual") as far, \\
+        can.Bus("serial", "virtual") as wire, \\
+        Node(PROTOCOL, "AAA", near) as a, Node(PROTOCOL, "BBB", far) as b:
+    found = []
+    b.on(Text, found.append)
+    a.set(*split(PROTOCOL.transfer("serial"), "A1-9"), period=0.1)
+    frames = 0
+    while not found and frames < 100:
+        frame = wire.recv(5)
+        frames += 1
+        print(f"{frame.arbitration_id:X}", frame.data.hex())
+    print(found[0].transfer, found[0].text)
+"""
+)
+
+
+def test_its_transfer_is_put_together_live_and_in_columns(project: Path) -> None:
+    assert run(project, DBCSPEC, "generate").returncode == 0
+    done = run(project, NODES)
+    assert done.returncode == 0, done.stderr
+    *frames, told = done.stdout.splitlines()
+    # Two characters a frame, and twice the same before it counts: it is sent again and again.
+    assert frames[:4] == ["102 0141310000000000", "102 022d390000000000"] * 2
+    assert told == "serial A1-9"
+    lines = [frame.replace(" ", "#") for frame in frames[:4]]
+    log = "".join(f"({n / 10}) can0 {line}\n" for n, line in enumerate(lines))
+    (project / "drive.log").write_text(log, "ascii")
+    arguments = ("--protocol", "acme._generated")
+    converted = run(project, TYPEDCAN, *arguments, "convert", "drive.log", "-o", "drive")
+    assert converted.returncode == 0, converted.stderr
+    [row] = pq.read_table(project / "drive" / "serial.parquet").to_pylist()
+    assert (row["timestamp"], row["text"]) == (0.3, "A1-9")
