@@ -15,6 +15,7 @@ import pytest
 from cantools.database.can import Database
 from rules.in_blocks import broken, candump
 from rules.recorded import block_of
+from transfer.rack import rack
 
 import typedcan
 from dbcspec.config import find_config
@@ -22,6 +23,8 @@ from dbcspec.project import load
 from typedcan.databases.dbc import read_dbc
 from typedcan.judge import Judge, JudgeError, Judgement, judge_log, rules_for
 from typedcan.judge.report import to_csv, to_html, to_json, to_junit
+from typedcan.transfer import split
+from typedcan.wire.codec import Codec
 from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol
 
@@ -275,3 +278,24 @@ def test_nothing_of_this_standard_is_needed(tmp_path: Path) -> None:
         check=False,
     )
     assert (done.stdout, done.stderr) == ("frame-length\n", "")
+
+
+def test_frames_and_groups_that_a_spec_numbers_from_0_are_no_fault() -> None:
+    protocol = rack()
+    codec = Codec(protocol)
+    names = split(protocol.transfer("name"), "架")
+    heats = split(protocol.transfer("heats"), {0: [20.0] * 4, 1: [30.0] * 3, 2: [40.0] * 2})
+    frames = [
+        frame(cycle * period + n * period / len(messages), each.FRAME_ID, codec.encode(each))
+        for period, messages in ((0.5, names), (0.25, heats))
+        for cycle in range(round(20 / period))
+        for n, each in enumerate(messages)
+    ]
+    found = {result.rule.id: result.count for result in judged(protocol, frames).results}
+    assert found["code-defined"] == 0
+    assert found["frame-numbers"] == 0
+    beyond = frame(20.0, names[0].FRAME_ID, bytes([3, *bytes(7)]))
+    [wrong] = [
+        r for r in judged(protocol, [*frames, beyond]).results if r.rule.id == "code-defined"
+    ]
+    assert wrong.count == 1

@@ -43,8 +43,8 @@ class Readings:
     unit
         Of the readings.
     totals, told
-        The message that tells how many there are, and its signals for that, those that there are of
-        groups and readings in all; empty where the protocol fixes them.
+        The message that tells how many there are, and its signals for that, of groups and of
+        readings in all. Where the protocol fixes them, the message itself and no signals.
     word
         What a group is called in metadata.
     parts
@@ -110,7 +110,7 @@ def _readings(parts: Parts, group: Part, number: Part) -> Readings:
         no_group=tuple(code for code in states if code is not None),
         items=tuple(part.signal.name for part in parts.items),
         unit=parts.items[0].signal.unit,
-        totals=told[0].message.name if told else "",
+        totals=told[0].message.name if told else parts.messages[0].name,
         told=tuple(part.signal.name for part in told),
         word=re.sub(r"\W+", "_", parts.word.lower()),
         parts=parts,

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from typedcan.model.protocol import Message, Protocol, Signal
 from typedcan.model.signal_state import SignalState
-from typedcan.model.transfer import Transfer
+from typedcan.model.transfer import Counted, Transfer
 
 EVENT_TIMEOUT = 1.0
 """Seconds in which a value that is sent once has to be complete."""
@@ -126,6 +126,16 @@ class Parts:
     def width(self) -> int:
         """How many items a numbered frame has."""
         return len(self.items)
+
+    @property
+    def numbers(self) -> range | None:
+        """The numbers of the frames of a set, where the spec fixes how many there are."""
+        count = self.transfer.count
+        if not (self.number and count and self.items) or self.group:
+            return None
+        if self.transfer.counted is Counted.ITEMS:
+            count = -(count // -self.width)
+        return range(self.transfer.first_number, self.transfer.first_number + count)
 
     @cached_property
     def capacity(self) -> int:

@@ -20,7 +20,8 @@ Make = Callable[[Sequence[Any], Mapping[str, Any], float], ValueT | Wrong]
 """Makes the value of its items, its details by field name, and the time."""
 
 _TIMEOUT = 2.0
-"""Periods in which a set has to be complete where the spec says nothing."""
+"""Periods in which a set has to be complete where the spec says nothing; of numbered frames so many
+for each, as there may be one in a period."""
 
 _SILENCE = 3
 """Timeouts without a frame after which all is forgotten."""
@@ -55,6 +56,7 @@ class SetRules(Rules, Generic[ValueT]):
         rounds: int | None,
     ) -> None:
         transfer = parts.transfer
+        self._fixed_timeout = timeout
         self._timeout = parts.seconds(_TIMEOUT) if timeout is None else timeout
         self._rounds = (transfer.rounds or usual_rounds(parts)) if rounds is None else rounds
         if self._timeout <= 0 or self._rounds < 1:
@@ -160,6 +162,9 @@ class SetRules(Rules, Generic[ValueT]):
         """Take over how many items, or frames, there are; 0 for not known."""
         parts = self._parts
         self.slots = {slot.number: slot for slot in slots_of(parts, count)}
+        if self._fixed_timeout is None:
+            frames = max(1, len(self.slots)) if parts.number else 1
+            self._timeout = parts.seconds(_TIMEOUT * frames)
         self._readers = {
             number: reader_of(parts, self.wanted[slot.message], slot)
             for number, slot in self.slots.items()

@@ -57,18 +57,20 @@ def _labelled(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
 def _frame_numbers(transfers: Sequence[Transfer]) -> Iterator[Codes]:
     """Of the frames of transfers of which it is known how many they take."""
     for transfer in transfers:
-        if transfer.frame_number and not transfer.group and transfer.count:
+        if transfer.frame_number and (numbers := transfer.parts.numbers):
             message, name = transfer.frame_number
             field = message.FIELDS[name]
-            right = tuple(range(1, -(-transfer.count // len(transfer.items)) + 1))
+            right = tuple(numbers)
             yield Codes(message, field, without([field.signal.raw_limits], right), right)
 
 
 def _from_one(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
     refs: list[FieldRef] = []
     for transfer in protocol.transfers:
+        first = (transfer.parts.transfer.first_number, transfer.parts.transfer.first_group)
         if transfer.frame_number and transfer.group:
-            refs += [transfer.frame_number, transfer.group]
+            numbers = zip((transfer.frame_number, transfer.group), first, strict=True)
+            refs += [ref for ref, begin in numbers if begin == 1]
     for message, field in whole_fields(protocol):
         if field.dbc_name in scope.from_one:
             refs.append(FieldRef(message, field.name))

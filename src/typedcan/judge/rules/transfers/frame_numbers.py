@@ -85,6 +85,7 @@ def rule(protocol: Protocol) -> Rule:
         for transfer in protocol.transfers
         for message, (group, number) in keyed(protocol).items()
         if message is transfer.messages[0] and transfer.groups_field
+        if (transfer.parts.transfer.first_group, transfer.parts.transfer.first_number) == (1, 1)
     )
     return Rule(
         id="frame-numbers",
