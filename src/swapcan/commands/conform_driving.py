@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.commands.driving import HUNG, LIVE
 from swapcan.rules import RULES
 from swapcan.scenarios.announcement import announcement
 from swapcan.scenarios.scenario import Scenario
@@ -28,6 +27,8 @@ from typedcan.commands.conform_bus import (
 from typedcan.commands.conform_choice import Choice
 from typedcan.commands.conform_reports import Judged
 from typedcan.commands.conformance import CONFORMS, Judging
+from typedcan.drive.watchdog import HUNG
+from typedcan.node.errors import LIVE
 from typedcan.report.language import Language
 from typedcan.shell.console import CommandError, note, say, warn
 from typedcan.shell.process_signals import Interrupts

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import ExitStack, suppress
 
 import can
 
 from swapcan._generated.protocol import PROTOCOL
-from swapcan.commands.driving import HUNG, LIVE, acting_nodes, who_acts
 from swapcan.commands.simulation_report import SimulationReport
 from swapcan.nodes.departure import departure
 from swapcan.nodes.plan import PlannedStep
@@ -18,12 +17,14 @@ from swapcan.wire import Codec
 from typedcan.drive.departure import Departure
 from typedcan.drive.driving import LEAVING, Driving, Left, look_out_time
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.drive.watchdog import HUNG
 from typedcan.node.clock import SystemClock
-from typedcan.node.errors import StillActingError
+from typedcan.node.errors import LIVE, StillActingError
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.simulate.faults import PlannedFault
 from typedcan.simulate.shared_bus import SharedBus
+from typedcan.wire.acting import acting_fields
 
 
 def allowed_nodes(
@@ -34,12 +35,12 @@ def allowed_nodes(
     Says which are left out; raises `CommandError` where none is left, or the plan or a fault is
     for one that is not.
     """
-    acting = acting_nodes(names)
+    acting = _acting_nodes(names)
     rest = tuple(name for name in names if name not in acting)
-    who = who_acts(acting)
+    who = _who_acts(acting)
     without = "without --yes-drive-the-bus"
     if acting and not rest:
-        raise CommandError(f"{who_acts(acting)} would make others act: not simulated {without}")
+        raise CommandError(f"{_who_acts(acting)} would make others act: not simulated {without}")
     for step in plan:
         if step.node in acting:
             raise CommandError(f"{step}: it is for {step.node}, which is not simulated {without}")
@@ -80,7 +81,7 @@ class LivingNodes:
         self._plan = plan
         self._name = name
         self._lent = buses
-        self._looks_out = bool(acting_nodes(names)) and not virtual
+        self._looks_out = bool(_acting_nodes(names)) and not virtual
         self._buses: list[NotingBus] = []
         self.is_safe = True
         """Whether all that was commanded was ended, as far as is known."""
@@ -156,3 +157,17 @@ class LivingNodes:
 
 def _ignore(_: can.Message) -> None:
     """Note nothing."""
+
+
+def _acting_nodes(names: Iterable[str]) -> tuple[str, ...]:
+    """Those of some nodes that send codes that act."""
+    return tuple(name for name in names if _acting_messages(name))
+
+
+def _who_acts(names: Iterable[str]) -> str:
+    """Some nodes with their messages that act, for people."""
+    return " and ".join(f"{name} ({', '.join(_acting_messages(name))})" for name in names)
+
+
+def _acting_messages(node: str) -> tuple[str, ...]:
+    return tuple(kind.NAME for kind in PROTOCOL.sent_by(node) if acting_fields(kind))

@@ -13,13 +13,10 @@ from typedcan.drive.in_order import InOrder
 from typedcan.model.errors import TypedcanError
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.commanded import SentCommands
-from typedcan.simulate.echoes import Echoes
+from typedcan.simulate.echoes import Echoes, Identifier, identifier_of
 from typedcan.wire.acting import acting_fields, acts
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message
-
-Identifier = tuple[int, bool]
-"""The number of a frame, and whether it has 29 bits."""
 
 
 class EndedError(TypedcanError):
@@ -226,11 +223,6 @@ class NotingBus(can.BusABC):
         if not self._is_shutdown:
             self._record.tell_all()
         super().shutdown()
-
-
-def identifier_of(frame: can.Message) -> Identifier:
-    """By which frame or message it is known whose it is."""
-    return frame.arbitration_id, frame.is_extended_id
 
 
 def _identifier(kind: type[Message]) -> Identifier:

@@ -13,6 +13,9 @@ from typedcan.drive.noting_bus import NotingBus
 from typedcan.model.errors import TypedcanError
 from typedcan.node.clock import Clock, SystemClock
 
+HUNG = "the program stands still: what acts was ended; Ctrl-C, or else kill -9, ends the program"
+"""What people are told where a driver, a recorder or an output does not come back."""
+
 _PATIENCE = 2.0
 """Seconds without a beat after which the program counts as hanging."""
 

@@ -6,6 +6,9 @@ from collections.abc import Sequence
 
 from typedcan.model.errors import TypedcanError
 
+LIVE = "TAKE IT FOR LIVE, switch it off by other means"
+"""What people are told where it is not known that all is off."""
+
 
 class StillActingError(TypedcanError):
     """What was commanded could not be ended: ``messages`` are those that act, ``cause`` says why.
@@ -17,10 +20,7 @@ class StillActingError(TypedcanError):
         self.messages = tuple(messages)
         self.cause = cause
         names = ", ".join(messages)
-        super().__init__(
-            f"the safe codes of {names} could not be sent ({cause}):"
-            " TAKE IT FOR LIVE, switch it off by other means"
-        )
+        super().__init__(f"the safe codes of {names} could not be sent ({cause}): {LIVE}")
 
 
 class RequestError(TypedcanError):

@@ -14,7 +14,10 @@ Later the same bytes are another's."""
 _AT_ONCE = 0.5
 """Seconds after which it is plain, on a bus that is heard to its end, that nothing comes back."""
 
-_Key = tuple[int, bool, bytes]
+Identifier = tuple[int, bool]
+"""The number of a frame, and whether it has 29 bits."""
+
+_Key = tuple[Identifier, bytes]
 
 
 class Echoes:
@@ -56,5 +59,10 @@ class Echoes:
             self._sent.clear()
 
 
+def identifier_of(frame: can.Message) -> Identifier:
+    """By what it is known which message is in a frame: one number in both widths is two."""
+    return frame.arbitration_id, frame.is_extended_id
+
+
 def _key(frame: can.Message) -> _Key:
-    return frame.arbitration_id, frame.is_extended_id, bytes(frame.data)
+    return identifier_of(frame), bytes(frame.data)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import threading
 from collections import Counter, deque
+from collections.abc import Callable
 from copy import copy
-from typing import Any
 
 import can
 
@@ -14,6 +14,7 @@ from typedcan.model.checksums.registry import Given
 from typedcan.model.layout import bits_reader, bits_writer
 from typedcan.model.seal import seals_of
 from typedcan.node.clock import Clock, SystemClock
+from typedcan.simulate.echoes import Identifier, identifier_of
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, can_have
 from typedcan.simulate.times import PlanError
 from typedcan.wire.database import database
@@ -63,9 +64,9 @@ class FaultyBus(can.BusABC):
         self._seals = seals_of(protocol.model, algorithms or {})
         # How many-th frames a fault hits, by the fault and the message, None for all messages.
         self._active: dict[tuple[str, type[Message] | None], int] = {}
-        self._seen: Counter[tuple[str, int]] = Counter()
+        self._seen: Counter[tuple[str, Identifier]] = Counter()
         self._stuck: dict[type[Message], int] = {}
-        self._held: dict[int, deque[tuple[float, can.Message]]] = {}
+        self._held: dict[Identifier, deque[tuple[float, can.Message]]] = {}
         self._lock = threading.RLock()  # a node may send in one thread and receive in another
         self.channel_info = f"{bus.channel_info}, with faults"
         super().__init__(channel=self.channel_info)
@@ -110,7 +111,7 @@ class FaultyBus(can.BusABC):
 
         Nothing happens where it is not there.
         """
-        numbers = {message.FRAME_ID for message in messages}
+        numbers = {(message.FRAME_ID, message.EXTENDED) for message in messages}
         with self._lock:
             for active in [key for key in self._active if key[0] == fault]:
                 if not messages or active[1] in messages:
@@ -139,14 +140,14 @@ class FaultyBus(can.BusABC):
         if self._hits("bus_silence", msg, kind) or self._hits("lost_frame", msg, kind):
             return
         frame = self._altered(msg, kind) if kind else msg
-        queue = self._held.get(msg.arbitration_id)
+        queue = self._held.get(identifier_of(msg))
         due = queue[-1][0] if queue else -math.inf  # frames of a message keep their order
         if self._hits("late_frame", msg, kind):
             due = max(due, self._clock.now() + _holding_time(kind))
         if due == -math.inf:
             self._bus.send(frame, timeout)
         else:
-            self._held.setdefault(msg.arbitration_id, deque()).append((due, copy(frame)))
+            self._held.setdefault(identifier_of(msg), deque()).append((due, copy(frame)))
 
     def release(self) -> None:
         """Send the frames that were held back long enough, as `send` and `recv` do too."""
@@ -154,11 +155,11 @@ class FaultyBus(can.BusABC):
             return
         with self._lock:
             now = self._clock.now()
-            for frame_id, queue in list(self._held.items()):
+            for identifier, queue in list(self._held.items()):
                 while queue and queue[0][0] <= now:
                     self._bus.send(queue.popleft()[1])
                 if not queue:
-                    del self._held[frame_id]
+                    del self._held[identifier]
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
         if self._held:
@@ -184,7 +185,8 @@ class FaultyBus(can.BusABC):
     def _kind(self, frame: can.Message) -> type[Message] | None:
         entry = self._entries.entry(frame.arbitration_id, extended=frame.is_extended_id)
         whole = not frame.is_remote_frame and not frame.is_error_frame
-        return entry.type if entry and whole and len(frame.data) == entry.type.LENGTH else None
+        fits = entry is not None and len(frame.data) == entry.type.MODEL.frame_length
+        return entry.type if entry and whole and fits else None
 
     def _hits(self, fault: str, frame: can.Message, kind: type[Message] | None) -> bool:
         if not self._active:
@@ -192,31 +194,34 @@ class FaultyBus(can.BusABC):
         every = self._active.get((fault, kind)) or self._active.get((fault, None))
         if every is None:
             return False
-        key = (fault, frame.arbitration_id)
+        key = (fault, identifier_of(frame))
         self._seen[key] += 1
         return (self._seen[key] - 1) % every == 0
 
     def _altered(self, frame: can.Message, kind: type[Message]) -> can.Message:
-        data = bytes(frame.data)
+        data = bytes(frame.data[: kind.LENGTH])  # without what fills up a CAN FD frame
         if kind.COUNTER and self._hits("stuck_counter", frame, kind):
-            data = self._with_stuck_counter(data, kind, kind.COUNTER.signal)
+            read, write = _bits(kind, kind.COUNTER.signal)
+            data = write(data, self._stuck.setdefault(kind, read(data)))
+            seal = self._seals.get(kind.NAME)
+            data = seal.filled(data) if seal else data
         if kind.CHECKSUM and self._hits("wrong_checksum", frame, kind):
-            signal = kind.MODEL.signal(kind.CHECKSUM.signal)
-            wrong = bits_reader(signal, len(data))(data) ^ (1 << signal.length) - 1
-            data = bits_writer(signal, len(data))(data, wrong)
-        if data == frame.data:
+            read, write = _bits(kind, kind.CHECKSUM.signal)
+            ones = (1 << kind.MODEL.signal(kind.CHECKSUM.signal).length) - 1
+            data = write(data, read(data) ^ ones)
+        if data == frame.data[: kind.LENGTH]:
             return frame
         altered = copy(frame)
-        altered.data = bytearray(data)
+        altered.data = bytearray(data) + frame.data[kind.LENGTH :]
         return altered
 
-    def _with_stuck_counter(self, data: bytes, kind: type[Message], counter: str) -> bytes:
-        packer = self._entries.by_type[kind].packer
-        names = (field.dbc_name for field in kind.FIELDS.values())
-        raw: dict[str, Any] = dict(zip(names, packer.unpack(data), strict=True))
-        raw[counter] = self._stuck.setdefault(kind, raw[counter])
-        data, seal = packer.pack(raw), self._seals.get(kind.NAME)
-        return seal.filled(data) if seal else data
+
+def _bits(
+    kind: type[Message], name: str
+) -> tuple[Callable[[bytes], int], Callable[[bytes, int], bytes]]:
+    """What reads and what writes a signal."""
+    signal = kind.MODEL.signal(name)
+    return bits_reader(signal, kind.LENGTH), bits_writer(signal, kind.LENGTH)
 
 
 def _holding_time(kind: type[Message] | None) -> float:
