@@ -278,3 +278,33 @@ def test_a_simulated_pack_that_charges_and_cools_ends_that_for_the_others() -> N
     assert stop["B2V_S_ChargeControl"] == ChargeControl.NORMAL_STOP_TO_CHARGE
     assert unit["BMS_ReqstSetTMSts"] == ThermalMode.OFF
     assert unit["BMS_ReqstTMSHVon"] == HvRequest.REQUEST_HV_OFF
+
+
+class Unstoppable(Chg):
+    """Gives, and says so, whatever it is told."""
+
+    @property
+    def charging(self) -> bool:
+        return self._reporting
+
+
+def test_a_simulated_pack_is_not_left_safe_while_a_charger_says_that_it_gives() -> None:
+    clock = SharedClock()
+    wire = SimulatedWire(clock)
+    with SimulatedBus(wire) as near, SimulatedBus(wire) as far:
+        clock.pack = Unstoppable(far, clock=clock)  # type: ignore[assignment]
+        with NotingBus(near, Codec(), lambda _: None, clock=clock) as bus:
+            driven = Driving(
+                [bus],
+                clock=clock,
+                wires=(wire,),
+                is_over=lambda: "B2C_Charger" in {each.NAME for each in bus.acting},
+            )
+            share = SharedBus(bus).share
+            with Simulation(["BMU"], share, clock=clock, wires=(wire,)) as simulation:
+                driven.live(simulation.world, 60.0)
+                assert bus.acting
+                begin = clock.now()
+                assert driven.leave(departure(simulation, [bus])) is Left.UNKNOWN
+                assert clock.now() - begin == pytest.approx(driving.LEAVING, abs=0.06)
+                assert bus.acting == ()

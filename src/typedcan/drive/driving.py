@@ -45,6 +45,9 @@ _MOMENT = 1e-6
 _TROUBLE = 1.0
 """Seconds for which a bus may refuse to work before driving is given up."""
 
+_MANY = 1000
+"""Frames that are taken in one go: more than come in a slice, and not without end."""
+
 _ATTEMPTS = 100
 """How often leaving begins anew where something breaks into it."""
 
@@ -171,6 +174,7 @@ class Driving:
         world = World(*departure.live_on, clock=self._clock, wires=self._wires)
         while (passed := self._clock.now() - begin) < LEAVING - _MOMENT:
             self._let_pass(world)
+            self._try(self._hear)  # who lives on may be on none of the buses
             self._watchdog.beat()
             if self._acts or (passed < _LEAVING_AT_LEAST and self._is_quiet):
                 self._send_safe_codes(everybody)
@@ -208,15 +212,16 @@ class Driving:
     def _hearing(self) -> World:
         """A world in which the buses are heard, and nobody lives."""
         world = World(clock=self._clock, wires=self._wires)
-
-        def hear() -> None:
-            for bus in self._buses:
-                with suppress(Exception):  # the bus keeps it as its trouble
-                    while bus.recv(0):
-                        pass
-
-        world.after_each_step(hear)
+        world.after_each_step(self._hear)
         return world
+
+    def _hear(self) -> None:
+        """Take what nobody has taken yet."""
+        for bus in self._buses:
+            with suppress(Exception):  # the bus keeps it as its trouble
+                for _ in range(_MANY):
+                    if bus.recv(0) is None:
+                        break
 
     def _send_safe_codes(self, participants: Sequence[Participant]) -> None:
         """By the nodes, whose counters go on, and where that fails on the bare buses."""
