@@ -169,6 +169,15 @@ def test_numbers_that_there_cannot_be_are_reported(csc: int | SignalState, numbe
     assert assembler.take(frame, 1.0) == (Problem("cell_voltages", "number", text, 1.0),)
 
 
+@pytest.mark.parametrize(("csc", "number"), [(0, 1), (3, 1), (1, 0)])
+def test_numbers_that_there_cannot_be_are_reported_of_frames_without_a_value_too(
+    csc: int, number: int
+) -> None:
+    [problem] = assembler_for(EVEN).take(B2V_Ucell(csc_no=csc, frame_no=number), 1.0)
+    assert isinstance(problem, Problem)
+    assert problem.kind == "number"
+
+
 def test_other_totals_begin_anew_and_the_same_change_nothing() -> None:
     assembler = assembler_for(EVEN)
     frames = split_cell_voltages(EVEN)

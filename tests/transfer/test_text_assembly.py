@@ -221,3 +221,11 @@ def test_settings_that_make_no_sense_are_refused() -> None:
         VinAssembler(timeout=0)
     with pytest.raises(ValueError, match="0 rounds"):
         PackCodeAssembler(rounds=0)
+
+
+def test_silence_after_a_set_that_was_never_complete_says_nothing_more() -> None:
+    assembler = PackCodeAssembler()
+    assembler.take(split_pack_code(CODE)[0], 0.0)
+    assert kinds(list(assembler.expire(2.0))) == ["timeout"]
+    assert assembler.expire(6.0) == ()
+    assert assembler.missing() == "frames 2, 3, 4 of 4 are missing"

@@ -95,7 +95,8 @@ def _growing(protocol: Protocol, names: set[str]) -> list[str]:
     return [
         transfer.name
         for transfer in protocol.transfers
-        if transfer.frame_number and transfer.count is None and names & set(transfer.messages)
+        if transfer.frame_number and not (transfer.count or transfer.counts)
+        if names & set(transfer.messages)
     ]
 
 

@@ -127,7 +127,8 @@ class ReadingRules(Rules):
         """What still lacks for a result."""
         cycle = self._cycle
         if cycle is None:
-            return self._lacked or f"{self._totals} with the totals is missing"
+            teller = self._totals or self._parts.messages[0].name
+            return self._lacked or f"{teller} with the totals is missing"
         if cycle.counts is None or cycle.is_waiting_for_rounds:
             count = self._known.count if self._known else 0
             return f"only {cycle.shape.seen} of {count} readings had a value yet"
@@ -159,7 +160,7 @@ class ReadingRules(Rules):
     def _tell(self, told: Sequence[Any], at: float) -> tuple[Problem, ...]:
         """Take the totals, fixed or told."""
         totals = totals_of(self._parts, [whole(value) for value in told])
-        if totals == self._known and (self._cycle is not None or totals is None):
+        if totals == self._known:
             return ()
         self._known, self._cycle, self._lacked = totals, None, ""
         if totals is None:
