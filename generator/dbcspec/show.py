@@ -8,6 +8,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
 from typedcan.model.errors import ReadError
+from typedcan.model.j1939 import needs_several_frames, pgn
 from typedcan.model.layout import bits
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Message, Protocol, Signal, ValueTable
@@ -51,6 +52,10 @@ def _head(message: Message) -> Iterator[str]:
     yield from filter(None, (message.english, message.title))
     if message.condition:
         yield f"Sent {message.condition}."
+    if message.by_pgn:
+        yield f"Found by its PGN 0x{pgn(message.frame_id):04X}, from any source address."
+    if needs_several_frames(message):
+        yield "Takes several frames, by the transport protocol: no single one is received as it."
     if message.is_fd:
         yield f"{message.frame_kind}."
     if message.checksum:

@@ -112,6 +112,7 @@ def _message(message: Message, carries: frozenset[Aspect]) -> list[_Fact]:
         ("identifier", _Bare(f"0x{message.frame_id:X}, {width}")),
         ("length", message.length),
         ("frame format", _Bare(message.frame_kind) if message.is_fd else None),
+        ("found by", _Bare("PGN") if message.by_pgn else None),
         ("sender", _Bare(message.sender)),
         *_names("other sender", message.other_senders),
         *_words(message.title, message.english),

@@ -21,6 +21,7 @@ from typedcan.model.transfer import Transfer
 from typedcan.report.item import LEVELS
 
 PLACES_OF = {
+    Aspect.FRAME_FORMATS: ("Message.is_fd", "Message.bit_rate_switch", "Message.by_pgn"),
     Aspect.PERIODS: ("Message.period", "Message.send_type"),
     Aspect.START_VALUES: ("Signal.start_value",),
     Aspect.COMMENTS: (

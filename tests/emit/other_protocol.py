@@ -100,7 +100,6 @@ OTHER = Protocol(
     name="other-car",
     english="Another car",
     title="Ein anderes Auto",
-    frame_format="StandardCAN",
     nodes=(Node(name="ECU", english="Engine", address=1), Node(name="ABS"), Node(name="TCU")),
     buses=(
         Bus(name="body", bit_rate=125_000, nodes=("ECU",)),

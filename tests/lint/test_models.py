@@ -250,22 +250,25 @@ def test_the_longest_frame_with_all_stuff_bits_is_what_a_bus_carries() -> None:
 def test_only_periodic_messages_of_nodes_on_the_bus_load_it() -> None:
     event = message()
     elsewhere = message("LIMITS", frame_id=0x101, sender="HMI", period=1)
-    longer_than_classic = message("BULK", frame_id=0x102, length=64, period=1)
+    longer_than_classic = message("BULK", frame_id=0x102, length=64, period=1, is_fd=True)
     nodes = (Node(name="ECU"), Node(name="HMI"))
     messages = (event, elsewhere, longer_than_classic)
     assert rules(*messages, nodes=nodes, buses=(body(1000),)) == []
 
 
 def test_j1939_rules_do_not_speak_of_other_29_bit_identifiers() -> None:
-    shared = (message(frame_id=0x18FF0001), message("LIMITS", frame_id=0x18FF0002))
     none, null = (Node(name="ECU"),), (Node(name="ECU", address=254),)
-    for nodes, frame_format, expected in (
-        (none, "ExtendedCAN", []),
-        (null, "ExtendedCAN", []),
-        (none, "J1939PG", ["LIMITS"]),
-        ((Node(name="ECU", address=1),), "ExtendedCAN", ["LIMITS"]),
+    for nodes, by_pgn, expected in (
+        (none, False, []),
+        (null, False, []),
+        (none, True, ["LIMITS"]),
+        ((Node(name="ECU", address=1),), False, ["LIMITS"]),
     ):
-        protocol = Protocol(name="x", messages=shared, nodes=nodes, frame_format=frame_format)
+        shared = (
+            message(frame_id=0x18FF0001, by_pgn=by_pgn),
+            message("LIMITS", frame_id=0x18FF0002),
+        )
+        protocol = Protocol(name="x", messages=shared, nodes=nodes)
         found = PGN_UNIQUE.findings(Subject(protocol=protocol))
         assert [each.subject for each in found] == expected
 

@@ -37,7 +37,6 @@ _STATE = _table("Moving", "Stands", "Moves")
 
 MODEL = Protocol(
     name="crane",
-    frame_format="StandardCAN",
     nodes=(Node(name="PANEL"), Node(name="WINCH"), Node(name="LAMP")),
     messages=(
         Message(

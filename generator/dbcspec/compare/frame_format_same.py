@@ -1,26 +1,17 @@
-"""Identifiers are matched whole or by parameter group, as before."""
+"""A message is found by its whole identifier or by its PGN, as before."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from dbcspec.compare.pairing import Pairing
-from dbcspec.compare.promise import Breaks, Change, Class, Promise, protocol_change
-
-_BY_GROUP = "J1939PG"
-
-
-def _check(pairing: Pairing) -> Iterator[Change]:
-    # Standard or extended is a promise of its own.
-    old, new = pairing.old.frame_format, pairing.new.frame_format
-    if (old == _BY_GROUP) != (new == _BY_GROUP):
-        yield protocol_change("messages", "frame format", old, new)
-
+from dbcspec.compare.promise import Breaks, Class, Promise, in_messages
+from typedcan.model.protocol import Aspect
 
 PROMISE = Promise(
     "frame-format-same",
-    "Tools match identifiers whole, or by J1939 parameter group, as before.",
-    Class.SOURCE,
+    "A message is found by its whole identifier, or by its PGN as SAE J1939 has it, as before.",
+    Class.WIRE,
     Breaks.BOTH,
-    _check,
+    in_messages(
+        "found by", lambda message: message.by_pgn, lambda by_pgn: ("identifier", "PGN")[by_pgn]
+    ),
+    needs=Aspect.FRAME_FORMATS,
 )

@@ -72,7 +72,7 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
         messages_values=list(_values(part, english=english)),
         float_type=lambda signal: 2 if signal.length == 64 else 1,
         selector_lists=selector_lists,
-        frame_format=lambda message: _frame_format(part, message),
+        frame_format=_frame_format,
         long_names=long_names,
         nobody=NOBODY,
     )
@@ -123,12 +123,11 @@ def _has_fd(protocol: Protocol) -> bool:
     return any(message.is_fd for message in protocol.messages)
 
 
-def _frame_format(protocol: Protocol, message: Message) -> int:
-    """The index of VFrameFormat: the protocol's own word counts for extended frames."""
+def _frame_format(message: Message) -> int:
+    """The index of VFrameFormat."""
     if message.is_fd:
         return _FD_FRAME_FORMATS.index("ExtendedCAN_FD" if message.extended else "StandardCAN_FD")
-    j1939 = protocol.frame_format == "J1939PG"
-    extended = "J1939PG" if j1939 else "ExtendedCAN"
+    extended = "J1939PG" if message.by_pgn else "ExtendedCAN"
     return _FRAME_FORMATS.index(extended if message.extended else "StandardCAN")
 
 

@@ -128,6 +128,7 @@ def _messages(protocol: Protocol) -> Iterator[str]:
 
 def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator[str]:
     extended = protocol.frame_format != "StandardCAN"
+    by_pgn = message.extended and protocol.frame_format == "J1939PG"
     orders = Counts(signal.byte_order for signal in message.signals)
     order = orders.most_common(1)[0][0] if orders else usual
     yield f"  - id: 0x{message.frame_id:X}"
@@ -141,6 +142,7 @@ def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator
             ("period", message.period or 0),
             ("byte_order", order.value if order is not usual else None),
             ("extended", ("no", "yes")[message.extended] if message.extended != extended else None),
+            ("by_pgn", ("no", "yes")[message.by_pgn] if message.by_pgn != by_pgn else None),
             ("fd", "yes" if message.is_fd else None),
             ("bit_rate_switch", "no" if message.is_fd and not message.bit_rate_switch else None),
             ("sender", message.sender or None if not message.signals else None),

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.j1939 import is_j1939, is_pdu2
+from dbcspec.lint.j1939 import is_j1939
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.j1939 import is_pdu2
 
 
 def _check(subject: Subject) -> Iterator[Found]:
@@ -17,7 +18,7 @@ def _check(subject: Subject) -> Iterator[Found]:
         return
     places = Places(subject)
     for message in subject.protocol.messages:
-        if message.extended and is_pdu2(message) and len(message.receivers) == 1:
+        if message.extended and is_pdu2(message.frame_id) and len(message.receivers) == 1:
             text = (
                 f"{message.name} 0x{message.frame_id:X} is PDU2, which goes to all, but only "
                 f"{message.receivers[0]} is declared to receive it: correct one"

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.j1939 import GLOBAL_ADDRESS, addresses, destination, shown
+from dbcspec.lint.j1939 import addresses, shown
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.j1939 import GLOBAL_ADDRESS, NULL_ADDRESS, destination
 
 
 def _check(subject: Subject) -> Iterator[Found]:
@@ -14,8 +15,11 @@ def _check(subject: Subject) -> Iterator[Found]:
     known = {node.name: addresses(node) for node in subject.protocol.nodes}
     for message in subject.protocol.messages:
         heard_at = frozenset[int]().union(*(known.get(each, ()) for each in message.receivers))
-        address = destination(message)
-        if not heard_at or not message.extended or address in heard_at | {GLOBAL_ADDRESS}:
+        address = destination(message.frame_id)
+        # Files for any receiver have the null address in their identifiers.
+        if address in (GLOBAL_ADDRESS, NULL_ADDRESS):
+            continue
+        if not heard_at or not message.extended or address in heard_at:
             continue
         text = (
             f"{message.name} 0x{message.frame_id:X} goes to 0x{address:02X}, but "

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.j1939 import is_j1939, pgn
+from dbcspec.lint.j1939 import is_j1939
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
+from typedcan.model.j1939 import pgn
 
 
 def _check(subject: Subject) -> Iterator[Found]:
@@ -24,10 +25,11 @@ def _check(subject: Subject) -> Iterator[Found]:
         if not message.extended or message.frame_id in identifiers:
             continue
         identifiers.add(message.frame_id)
-        other = first.setdefault(pgn(message), message.name)
+        group = pgn(message.frame_id)
+        other = first.setdefault(group, message.name)
         if other != message.name:
             text = (
-                f"{message.name} has the PGN 0x{pgn(message):04X} of {other}: tools in J1939 mode "
+                f"{message.name} has the PGN 0x{group:04X} of {other}: tools in J1939 mode "
                 f"take them for one; give one another number, or use no such tool"
             )
             yield Found(places.message(message, "id"), message.name, text, message.name)

@@ -173,7 +173,7 @@ def _id(message: Message, _: Signal | None = None) -> Value:
 def _frame_format(message: Message) -> str:
     width = "Extended" if message.extended else "Standard"
     if not message.is_fd:
-        return width
+        return "J1939PG" if message.by_pgn else width
     return f"{width} FD" if message.bit_rate_switch else f"{width} FD, no BRS"
 
 

@@ -161,6 +161,7 @@ def _message(draft: _MessageDraft, tables: SharedTables) -> Message:
         length=_length(draft, fact("msg_length")),
         is_fd=is_fd,
         bit_rate_switch=is_fd and switched,
+        by_pgn=not is_fd and "j1939" in text("frame_format").lower(),
         sender=next(iter(draft.senders), ""),
         other_senders=tuple(draft.senders)[1:],
         period=period or None,

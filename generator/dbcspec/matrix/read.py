@@ -46,14 +46,12 @@ def read_matrix(path: Path, *, shown_as: str | None = None) -> Protocol:
     if faults:
         raise SpecError(faults)
     cover = _cover(grids)
-    extended = any(message.extended for message in messages)
     return Protocol(
         name=cover.get("name") or path.stem,
         number=cover.get("number", ""),
         title=cover.get("title", ""),
         english=cover.get("english", ""),
         edition=cover.get("edition", ""),
-        frame_format=cover.get("frame_format") or ("ExtendedCAN" if extended else "StandardCAN"),
         nodes=tuple((nodes or {name: Node(name=name) for name in sheet.nodes}).values()),
         buses=buses,
         messages=tuple(messages),
@@ -95,7 +93,7 @@ def _carries(sheet: Sheet, grids: list[Grid], messages: Iterable[Message]) -> It
     ):
         if all(map(sheet.has, keys)):
             yield aspect
-    if any(message.is_fd for message in messages):
+    if any(message.is_fd or message.by_pgn for message in messages):
         yield Aspect.FRAME_FORMATS
     nodes = _side_table(grids, known.NODES, known.NODES_NEED)
     if nodes and "address" in nodes.table.columns:

@@ -113,6 +113,7 @@ def _signal(signals: SignalPair, both: frozenset[Aspect]) -> Iterator[Difference
 
 def _format(message: Message) -> str:
     width = "extended" if message.extended else "standard"
+    width = "J1939PG" if message.by_pgn else width
     return f"{width}, {message.frame_kind}" if message.is_fd else width
 
 

@@ -81,7 +81,6 @@ class _Resolver:
             title=joined(standard.title, standard.part_title),
             english=joined(standard.english, standard.part_english),
             edition=standard.edition,
-            frame_format=self._frame_format.removesuffix(_FD),
             nodes=nodes_of(standard),
             buses=tuple(
                 model.Bus(
@@ -139,6 +138,7 @@ class _Resolver:
             extended=self._is_extended(row),
             length=self._given(row, "length", row.length, 8),
             is_fd=self._is_fd(row),
+            by_pgn=self._is_by_pgn(row),
             bit_rate_switch=self._is_fd(row) and row.bit_rate_switch == "yes",
             sender=self._node(row.sender or (routes[0][0] if routes else "")),
             other_senders=tuple(map(self._node, row.other_senders)),
@@ -178,6 +178,10 @@ class _Resolver:
 
     def _is_fd(self, row: MessageRow) -> bool:
         return row.fd == "yes" if row.fd else self._frame_format.endswith(_FD)
+
+    def _is_by_pgn(self, row: MessageRow) -> bool:
+        said = row.by_pgn == "yes" if row.by_pgn else self._frame_format == "J1939PG"
+        return said and self._is_extended(row) and not self._is_fd(row)
 
     def _node(self, printed: str) -> str:
         return self._aliases.get(printed, printed)

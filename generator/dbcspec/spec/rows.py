@@ -143,6 +143,7 @@ class MessageRow(Record):
     period: int | None = key(INTEGER, "ms; 0 where it is sent on an event only")
     byte_order: str = key(one_of("Intel", "Motorola"), "where it differs from the document's")
     extended: str = key(one_of("yes", "no"), "29-bit identifier, where frame_format says otherwise")
+    by_pgn: str = key(one_of("yes", "no"), "found by its PGN, where frame_format says otherwise")
     fd: str = key(one_of("yes", "no"), "CAN FD frames, where frame_format says otherwise")
     bit_rate_switch: str = key(
         one_of("yes", "no"), "whether a CAN FD payload has the second bit rate", default="yes"

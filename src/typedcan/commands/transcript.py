@@ -11,8 +11,9 @@ Signals have their DBC names. A physical value or a count is a number, in the un
 code is an object, with a null label where it has none; a character is a string, or the number of
 its code where that is no character. A signal that says invalid or abnormal instead of a value is
 null, and ``states`` says which; so is a float that is infinite ("inf", "-inf") or no number
-("nan"). Signals of a branch that is not in the frame are left out. A frame of a known message with
-a wrong length or checksum has no signals but its bytes and what is wrong:
+("nan"). Signals of a branch that is not in the frame are left out. What is found by its PGN has its
+source_address, destination and priority too. A frame of a known message with a wrong length or
+checksum has no signals but its bytes and what is wrong:
 
     {"timestamp": 1.6, "channel": 0, "id": 201, "message": "Motor_Status", "data": "00FF...",
      "fault": {"kind": "checksum", "text": "checksum is 0x00, the bytes make 0xFF"}}
@@ -29,6 +30,7 @@ from typing import Any
 
 import can
 
+from typedcan.model.j1939 import GLOBAL_ADDRESS
 from typedcan.shell.console import say
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Fault, Received
@@ -111,7 +113,16 @@ def text_line(taken: Received[Message] | Fault, width: int = 0) -> str:
     if isinstance(taken, Fault):
         return f"{start}  ! {taken.text}  [{frame.data.hex(' ').upper()}]"
     faults = (f"! {fault.text}" for fault in taken.faults)
-    return "  ".join((start, *values_text(taken.message), *faults))
+    return "  ".join((start, *_addresses_text(taken), *values_text(taken.message), *faults))
+
+
+def _addresses_text(received: Received[Message]) -> list[str]:
+    """Who sent a message that is found by its PGN, and to whom, if not to all."""
+    source, receiver = received.source_address, received.destination
+    if source is None or receiver is None:
+        return []
+    end = "" if receiver == GLOBAL_ADDRESS else f" to 0x{receiver:02X}"
+    return [f"from 0x{source:02X}{end}"]
 
 
 def values_text(message: Message) -> list[str]:
@@ -138,6 +149,9 @@ def json_object(taken: Received[Message] | Fault) -> dict[str, Any]:
         line |= {"fault": _fault(taken)}
     else:
         message = taken.message
+        if taken.source_address is not None:
+            names = ("source_address", "destination", "priority")
+            line |= {name: getattr(taken, name) for name in names}
         line |= {"message": message.NAME, "signals": _signals(message), "states": _states(message)}
         line |= {"faults": [_fault(fault) for fault in taken.faults]}
     return line

@@ -26,7 +26,6 @@ ABNORMAL_LABELS = frozenset({"abnormal"})
 """Labels, in small letters, of the code that says that the value is abnormal."""
 
 _NOBODY = "Vector__XXX"
-_J1939 = "J1939PG"
 _LONGEST_PERIOD = 1 << 32
 """Milliseconds; what is longer is no number that a clock can count to."""
 
@@ -67,6 +66,7 @@ class _Builder:
         self._file = file
         self._labels = labels
         self._defined = dict(database.dbc.attribute_definitions) if database.dbc else {}
+        self._attributes = dict(database.dbc.attributes) if database.dbc else {}
         named = database.dbc.value_tables if database.dbc else {}
         self._value_tables = ValueTables({name: codes_of(table) for name, table in named.items()})
 
@@ -84,7 +84,6 @@ class _Builder:
             name=named,
             title=title,
             english=english,
-            frame_format=self._frame_format(messages),
             nodes=nodes,
             buses=tuple(
                 model.Bus(
@@ -102,8 +101,8 @@ class _Builder:
         )
 
     def _made_from(self) -> str:
-        attributes = self._database.dbc.attributes if self._database.dbc else {}
-        return str(attributes["SpecDigest"].value) if "SpecDigest" in attributes else ""
+        digest = self._attributes.get("SpecDigest")
+        return str(digest.value) if digest else ""
 
     def _carries(self, messages: Sequence[model.Message]) -> frozenset[model.Aspect]:
         aspect = model.Aspect
@@ -122,16 +121,9 @@ class _Builder:
             aspect.ADDRESSES: "NmStationAddress" in self._defined,
             aspect.VALUE_TABLE_NAMES: self._value_tables.named,
             aspect.FRAME_FORMATS: "VFrameFormat" in self._defined
-            or any(message.is_fd for message in messages),
+            or any(message.is_fd or message.by_pgn for message in messages),
         }
         return frozenset(each for each, is_said in said.items() if is_said)
-
-    def _frame_format(self, messages: Sequence[model.Message]) -> str:
-        """One for the whole file: the model has no other."""
-        if any(message.protocol == "j1939" for message in self._database.messages):
-            return _J1939
-        extended = any(message.extended for message in messages) or not messages
-        return "ExtendedCAN" if extended else "StandardCAN"
 
     def _node(self, node: CantoolsNode) -> model.Node:
         english, title = _texts(node.comment)
@@ -166,6 +158,7 @@ class _Builder:
             length=message.length,
             is_fd=is_fd,
             bit_rate_switch=is_fd and self._switches(message),
+            by_pgn=self._is_by_pgn(message),
             sender=senders[0] if senders else "",
             other_senders=tuple(senders[1:]),
             period=period if period > 0 else None,
@@ -180,6 +173,15 @@ class _Builder:
             errata=tuple(str(_attribute(message, "SpecErrata") or "").split()),
             where=places.message,
         )
+
+    def _is_by_pgn(self, message: CantoolsMessage) -> bool:
+        """Whether the file says that it is a parameter group of J1939, or that all of them are."""
+        named = message.protocol == "j1939"
+        if "VFrameFormat" not in self._defined and "ProtocolType" in self._defined:
+            value = self._attributes.get("ProtocolType")
+            default = self._defined["ProtocolType"].default_value
+            named = "J1939" in str(value.value if value else default)
+        return named and message.is_extended_frame
 
     def _needs_fd(self, message: CantoolsMessage) -> bool:
         """Whether only CAN FD can carry a message of a file that says nothing of it."""

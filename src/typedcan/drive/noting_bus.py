@@ -69,15 +69,13 @@ class NotingBus(can.BusABC):
         self._bus = bus
         self._clock = clock or SystemClock()
         self.played = tuple(played)
-        self._played = {_identifier(kind): kind for kind in played}
         self._times = FrameTimes(self._clock)
         self._record = InOrder(note)
         self._echoes = echoes or Echoes()
         self._codec = codec
         self._commands = SentCommands()
-        self._acting = {
-            _identifier(kind) for kind in codec.protocol.messages if acting_fields(kind)
-        }
+        self._acting = frozenset(kind for kind in codec.protocol.messages if acting_fields(kind))
+        self._sent_with: dict[type[Message], int] = {}  # the identifier of a message that can act
         self._trouble: dict[str, tuple[float, Exception]] = {}  # by direction
         self.may_act: Callable[[], object] = lambda: None
         self.latest: dict[Identifier, can.Message] = {}
@@ -118,6 +116,7 @@ class NotingBus(can.BusABC):
             if self.has_ended:
                 raise EndedError(type(command))
         obeyed = self._is_obeyed(msg, command)
+        self._sent_with[type(command)] = msg.arbitration_id
         self._commands.begin(command)
         if self.acting:
             self.has_acted = True
@@ -153,9 +152,9 @@ class NotingBus(can.BusABC):
 
     def _command_in(self, frame: can.Message) -> Message | None:
         """The message that can act in a frame, if there is one."""
-        if identifier_of(frame) not in self._acting:
-            return None
         number, extended = identifier_of(frame)
+        if self._codec.kind(number, extended=extended) not in self._acting:
+            return None
         try:
             return self._codec.decode(number, bytes(frame.data), verify=False, extended=extended)
         except TypedcanError:
@@ -181,6 +180,7 @@ class NotingBus(can.BusABC):
             last = getattr(message, kind.field_of(kind.COUNTER.signal).name)
             counter = kind.COUNTER.after(last) if isinstance(last, int) else kind.COUNTER.first
         frame = self._codec.frame(message, counter=counter, safe=True)
+        frame.arbitration_id = self._sent_with.get(kind, frame.arbitration_id)
         number, extended = identifier_of(frame)
         data = bytes(frame.data)
         self._commands.begin(self._codec.decode(number, data, verify=False, extended=extended))
@@ -212,7 +212,8 @@ class NotingBus(can.BusABC):
             self._echoes.heard_all(self._clock.now())
             return None, False
         self.latest[identifier_of(frame)] = frame
-        self.intruder = self._played.get(identifier_of(frame), self.intruder)
+        kind = self._codec.kind(frame.arbitration_id, extended=frame.is_extended_id)
+        self.intruder = kind if kind in self.played else self.intruder
         received = copy(frame)
         received.is_rx = True
         self._record.take(received, self._times.received(frame))
@@ -223,7 +224,3 @@ class NotingBus(can.BusABC):
         if not self._is_shutdown:
             self._record.tell_all()
         super().shutdown()
-
-
-def _identifier(kind: type[Message]) -> Identifier:
-    return kind.FRAME_ID, kind.EXTENDED

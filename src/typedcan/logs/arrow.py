@@ -29,6 +29,12 @@ STATES = ("value", "invalid", "abnormal")
 TIMESTAMP = pa.field("timestamp", pa.float64(), nullable=False, metadata={"unit": "s"})
 CHANNEL = pa.field("channel", LABEL_TYPE)
 
+ADDRESSES: tuple[pa.Field[Any], ...] = tuple(
+    pa.field(name, pa.uint8(), nullable=False)
+    for name in ("source_address", "destination", "priority")
+)
+"""What SAE J1939 reads in the identifiers of messages that are found by their PGN."""
+
 STATE_TYPE = pa.dictionary(pa.int8(), pa.string())
 _STATE_ARRAY = pa.array(STATES)
 
@@ -65,7 +71,8 @@ class MessageTable:
             for info in self.signals
             if info.scaled and protocol.reserved.get((message.name, info.name))
         }
-        fields = [TIMESTAMP, CHANNEL]
+        self._by_pgn = plan.by_pgn
+        fields = [TIMESTAMP, CHANNEL, *(ADDRESSES if plan.by_pgn else ())]
         self.metadata = {info.name: _metadata(protocol, message, info) for info in self.signals}
         """By name of the signal, what is said of its column."""
         for info in self.signals:
@@ -87,10 +94,18 @@ class MessageTable:
         arrays: list[pa.Array[Any]] = [
             float_array(columns.timestamp),
             channel_array(columns.channel, columns.block.channels),
+            *self.signal_arrays(columns),
         ]
+        return pa.RecordBatch.from_arrays(arrays, schema=self.schema)
+
+    def signal_arrays(self, columns: MessageColumns) -> list[pa.Array[Any]]:
+        """The arrays behind time stamp and channel: addresses, if it has them, and signals."""
+        arrays: list[pa.Array[Any]] = []
+        if self._by_pgn:
+            arrays += [from_numpy(each, pa.uint8(), None) for each in columns.addresses]
         for info in self.signals:
             arrays += self.arrays(columns.columns[info.name])
-        return pa.RecordBatch.from_arrays(arrays, schema=self.schema)
+        return arrays
 
     def arrays(self, column: Column) -> list[pa.Array[Any]]:
         """The arrays of a signal, one for each of its `fields`, copied."""

@@ -257,9 +257,7 @@ def _batch(table: MessageTable, columns: MessageColumns, frames: pa.RecordBatch)
         channel = frames.column("channel").take(rows).cast(pa.string()).dictionary_encode()
     else:
         channel = channel_array(columns.channel, columns.block.channels)
-    arrays: list[pa.Array[Any]] = [timestamp, channel]
-    for info in table.signals:
-        arrays += table.arrays(columns.columns[info.name])
+    arrays: list[pa.Array[Any]] = [timestamp, channel, *table.signal_arrays(columns)]
     schema = table.schema.set(0, table.schema.field(0).with_type(timestamp.type))
     return pa.RecordBatch.from_arrays(arrays, schema=schema)
 

@@ -25,6 +25,10 @@ PERIODS = 5
 """More than so many periods without a frame are a gap."""
 
 
+_Stream = tuple[str, int | str | None, int]
+"""A message on a channel, and its source address where it is found by its PGN."""
+
+
 @dataclass(slots=True)
 class Gaps:
     """The gaps of one message: how many, and the longest of them in seconds."""
@@ -82,7 +86,8 @@ class Checks:
     """Checks the decoded frames of one log, block after block.
 
     Frames with a wrong length or checksum are taken out, since the live runtime refuses them too.
-    Counters and gaps are followed for each channel on its own.
+    Counters and gaps are followed for each channel on its own, and for each source address of
+    messages that are found by their PGN.
 
     Parameters
     ----------
@@ -108,8 +113,8 @@ class Checks:
         }
         self._keep_faulty = keep_faulty
         self._counting = _counters(protocol)
-        self._last_counter: dict[tuple[str, int | str | None], int | None] = {}
-        self._last_time: dict[tuple[str, int | str | None], float] = {}
+        self._last_counter: dict[_Stream, int | None] = {}
+        self._last_time: dict[_Stream, float] = {}
         self._end = -np.inf
 
     def take(self, decoded: DecodedBlock) -> DecodedBlock:
@@ -134,7 +139,7 @@ class Checks:
 
     def finish(self) -> Faults:
         """What was found, with the gaps at the end of the log."""
-        for (name, _), last in self._last_time.items():
+        for (name, *_), last in self._last_time.items():
             self._gaps(name, np.array([last, self._end]))
         self._last_time = {}
         return self.faults
@@ -155,15 +160,17 @@ class Checks:
         return None if good.all() else good
 
     def _follow(self, name: str, columns: MessageColumns) -> None:
-        """Counter and gaps of one message, by channel."""
-        times, channel = columns.timestamp, columns.channel
+        """Counter and gaps of one message, by channel and, of one found by PGN, by sender."""
+        times, stream = columns.timestamp, columns.channel.astype(np.int32)
+        if columns.by_pgn:
+            stream += columns.addresses[0].astype(np.int32) << 16
         counting, period = self._counting.get(name), self._periods.get(name)
         self._end = max(self._end, float(times.max()))
         if counting is None and period is None:
             return
-        for number in np.unique(channel).tolist():
-            own = slice(None) if (channel == number).all() else np.flatnonzero(channel == number)
-            key = name, columns.block.channels[number]
+        for number in np.unique(stream).tolist():
+            own = slice(None) if (stream == number).all() else np.flatnonzero(stream == number)
+            key = name, columns.block.channels[number & 0xFFFF], number >> 16
             if counting is not None:
                 values = raw_values(counting.signal, columns.block.data[columns.rows[own]])
                 self._counter(key, counting, values)
@@ -172,9 +179,7 @@ class Checks:
                 self._gaps(name, np.append(np.float64(last), times[own]))
                 self._last_time[key] = float(times[own][-1])
 
-    def _counter(
-        self, key: tuple[str, int | str | None], counting: _Counting, values: NDArray[np.uint64]
-    ) -> None:
+    def _counter(self, key: _Stream, counting: _Counting, values: NDArray[np.uint64]) -> None:
         numbers = counter_places(counting.runs, values)
         sound = (numbers >= 0) & ~np.isin(values, counting.reserved)
         last = self._last_counter.get(key)
@@ -203,6 +208,7 @@ def rows_where(columns: MessageColumns, kept: NDArray[np.bool_]) -> MessageColum
         columns.block,
         columns.rows[kept],
         {name: taken(column, kept) for name, column in columns.columns.items()},
+        columns.by_pgn,
     )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.frames import FrameBlock
+from typedcan.model import j1939
 
 
 class State(IntEnum):
@@ -88,6 +89,8 @@ class MessageColumns:
         int64, which of them are this message's, ascending.
     columns
         The signals by name, in the order of the database.
+    by_pgn
+        Whether its frames are found by their PGN: then they differ in their addresses.
     """
 
     name: str
@@ -96,6 +99,7 @@ class MessageColumns:
     block: FrameBlock
     rows: NDArray[np.int64]
     columns: dict[str, Column]
+    by_pgn: bool = False
 
     @property
     def timestamp(self) -> NDArray[np.float64]:
@@ -107,9 +111,28 @@ class MessageColumns:
         """Index into ``block.channels``, one per row."""
         return self.block.channel[self.rows]
 
+    @property
+    def addresses(self) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.uint8]]:
+        """The J1939 source addresses, destinations (255 for all) and priorities, one per row."""
+        return addresses_of(self.block.frame_id[self.rows])
+
     def __len__(self) -> int:
         """How many frames."""
         return len(self.rows)
+
+
+def addresses_of(
+    frame_id: NDArray[np.uint32],
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.uint8]]:
+    """What SAE J1939 reads in identifiers: source addresses, destinations and priorities."""
+    numbers = np.unique(frame_id)
+    at = np.searchsorted(numbers, frame_id)
+    listed = numbers.tolist()
+    source, receiver, priority = (
+        np.array([read(number) for number in listed], np.uint8)[at]
+        for read in (j1939.source_address, j1939.destination, j1939.priority)
+    )
+    return source, receiver, priority
 
 
 @dataclass(slots=True)

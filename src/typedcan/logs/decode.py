@@ -15,6 +15,7 @@ from typedcan.logs.kernel import FRAMES, Values, bytes_of, values_of
 from typedcan.logs.multiplexing import Presence
 from typedcan.logs.plan import SHORT, MessagePlan, Mode, Reserved, SelectionError, plan_of
 from typedcan.logs.wide import wide_values
+from typedcan.model.j1939 import ByPgn
 from typedcan.model.protocol import Message
 
 _BUFFER = 256
@@ -33,7 +34,7 @@ class Decoder:
     ----------
     messages
         Of the model of a protocol. Of two with the same identifier of the same width the later
-        one counts, as in cantools.
+        one counts, as in cantools. By its PGN a frame counts that is no other message.
     mode
         What the columns hold.
     reserved
@@ -77,6 +78,7 @@ class Decoder:
         self._identifiers = Identifiers(
             [(message.frame_id, message.extended) for message in (*asked, *others)],
             frame_id_mask,
+            ByPgn((message, place) for place, message in enumerate((*asked, *others))),
         )
         self._known = len(known)
         self._buffers = Buffers()
@@ -116,7 +118,9 @@ class Decoder:
         self, place: int, plan: MessagePlan, block: FrameBlock, rows: NDArray[np.int64]
     ) -> MessageColumns:
         """Decode the frames that cantools would decode, all of one message."""
-        found = MessageColumns(plan.name, plan.frame_id, plan.is_extended, block, rows[:0], {})
+        found = MessageColumns(
+            plan.name, plan.frame_id, plan.is_extended, block, rows[:0], {}, plan.by_pgn
+        )
         sound: NDArray[np.bool_] | None = None
         while plan.multiplexing.decodable and len(rows):
             payload = self._payload(plan, block, rows)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from typedcan.logs.buffers import Buffers
 from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.model.j1939 import ByPgn
 
 _UINT32, _INTP = np.dtype(np.uint32), np.dtype(np.intp)
 _FLAGS = np.uint8(FrameFlag.EXTENDED | FrameFlag.REMOTE | FrameFlag.ERROR)
@@ -30,9 +31,17 @@ class Identifiers:
         Bare identifier and whether it is extended, no two the same.
     mask
         Bits of an identifier that count.
+    by_pgn
+        Finds places by the PGN of identifiers that are not in the list.
     """
 
-    def __init__(self, identifiers: Sequence[tuple[int, bool]], mask: int) -> None:
+    def __init__(
+        self,
+        identifiers: Sequence[tuple[int, bool]],
+        mask: int,
+        by_pgn: ByPgn[int] | None = None,
+    ) -> None:
+        self._by_pgn = by_pgn
         self._mask = np.uint32(mask) & _ALL_BITS
         keys = [(number & int(self._mask)) | extended << 29 for number, extended in identifiers]
         self._count = len(keys)
@@ -65,7 +74,26 @@ class Identifiers:
             stop = start + _CHUNK
             keys = self.keys(block.frame_id[start:stop], block.flags[start:stop])
             self._find(keys, places[start:stop])
+            if self._by_pgn:
+                ids, flags = block.frame_id[start:stop], block.flags[start:stop]
+                self._find_by_pgn(self._by_pgn, ids, flags, places[start:stop])
         return places
+
+    def _find_by_pgn(
+        self,
+        by_pgn: ByPgn[int],
+        frame_id: NDArray[np.uint32],
+        flags: NDArray[np.uint8],
+        places: NDArray[Any],
+    ) -> None:
+        """Find the frames that have no place yet, once for each of their identifiers."""
+        rows = np.flatnonzero((places == self._count) & ((flags & _FLAGS) == FrameFlag.EXTENDED))
+        if not len(rows):
+            return
+        numbers, inverse = np.unique(frame_id[rows], return_inverse=True)
+        found = [by_pgn.find(number) for number in numbers.tolist()]
+        known = [self._count if place is None else place for place in found]
+        places[rows] = np.array(known, self._places)[inverse]
 
     def keys(self, frame_id: NDArray[np.uint32], flags: NDArray[np.uint8]) -> NDArray[np.uint32]:
         """Identifier and kind (extended, remote, error) in one number; until the next call."""

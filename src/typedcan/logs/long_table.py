@@ -10,6 +10,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from typedcan.logs.arrow import (
+    ADDRESSES,
     CHANNEL,
     STATE_TYPE,
     STATES,
@@ -19,7 +20,13 @@ from typedcan.logs.arrow import (
     from_numpy,
     metadata_of,
 )
-from typedcan.logs.columns import Column, DecodedBlock, MessageColumns, SignalInfo
+from typedcan.logs.columns import (
+    Column,
+    DecodedBlock,
+    MessageColumns,
+    SignalInfo,
+    addresses_of,
+)
 from typedcan.logs.labels import LABEL_TYPE, known_codes, places_of
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.shapes import Batch, Shape
@@ -36,7 +43,8 @@ class LongTable(Shape):
 
     ``value`` is float64 (whole numbers beyond 2^53 are rounded) and null where the code is
     reserved; ``state`` says which of the reserved codes it is, ``label`` what the code is called.
-    Signals that a frame of a multiplexed message has not make no row.
+    Signals that a frame of a multiplexed message has not make no row. Where messages are found by
+    their PGN, source address, destination and priority are columns too, null for others.
 
     Parameters
     ----------
@@ -59,11 +67,14 @@ class LongTable(Shape):
         words = dict.fromkeys(word for info in self._signals for word in info.labels.values())
         self._words = pa.array(list(words), pa.string())
         ranks = {word: rank for rank, word in enumerate(words)}
+        found_so = [message.name for message in protocol.messages if message.by_pgn]
+        self._by_pgn = np.array([name in found_so for name in tables], np.bool_)
         self._labels = [_label_places(info, ranks) for info in self._signals]
         self._schema = pa.schema(
             [
                 TIMESTAMP,
                 CHANNEL,
+                *(each.with_nullable(True) for each in ADDRESSES if self._by_pgn.any()),  # noqa: FBT003
                 pa.field("message", LABEL_TYPE),
                 pa.field("signal", LABEL_TYPE),
                 pa.field("value", pa.float64()),
@@ -117,6 +128,7 @@ class LongTable(Shape):
             [
                 pa.array(block.timestamp[frames]),
                 channel_array(block.channel[frames], block.channels),
+                *self._addresses(block.frame_id[frames], self._by_pgn[rows.message]),
                 _words(rows.message, self._messages),
                 _words(rows.signal, self._names),
                 from_numpy(rows.value, pa.float64(), rows.valid),
@@ -125,6 +137,14 @@ class LongTable(Shape):
             ],
             schema=self._schema,
         )
+
+    def _addresses(
+        self, frame_id: NDArray[np.uint32], by_pgn: NDArray[np.bool_]
+    ) -> list[pa.Array[Any]]:
+        """What is read in the identifiers of frames that are found by their PGN."""
+        if not self._by_pgn.any():
+            return []
+        return [from_numpy(each, pa.uint8(), by_pgn) for each in addresses_of(frame_id)]
 
     def _fill(
         self, rows: _Rows, columns: MessageColumns, part: slice, at: NDArray[np.int64]

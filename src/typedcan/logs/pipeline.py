@@ -137,7 +137,7 @@ def read_rows(
     )
     checks = Checks(protocol, keep_faulty=options.keep_faulty)
     shapes = shapes_of(protocol, options)
-    summary = Summary(logs=1, hidden=protocol.hidden)
+    summary = Summary(logs=1, hidden=protocol.hidden, in_several_frames=protocol.in_several_frames)
     span = _Span()
     with open_log(path, _BLOCK) as log:
         for block in within(_watched(log, watch), options.start, options.end):

@@ -51,7 +51,7 @@ class MessagePlan:
 
     Parameters
     ----------
-    name, frame_id, is_extended, length
+    name, frame_id, is_extended, length, by_pgn
         The message's; the length in bytes.
     columns
         The signals asked for that can occur, in the order of the database.
@@ -70,6 +70,7 @@ class MessagePlan:
     stacks: tuple[Stack, ...]
     wide: tuple[Wide, ...]
     multiplexing: Multiplexing
+    by_pgn: bool
 
 
 def plan_of(
@@ -124,6 +125,7 @@ def plan_of(
         stacks,
         wide,
         multiplexing,
+        message.by_pgn,
     )
 
 

@@ -9,6 +9,7 @@ from typedcan.logs.columns import State
 from typedcan.logs.plan import Reserved
 from typedcan.logs.transfers.readings import Readings, readings_of, values_of
 from typedcan.model import protocol as model
+from typedcan.model.j1939 import needs_several_frames
 from typedcan.model.layout import in_bit_order
 from typedcan.model.transfers.parts import Parts
 
@@ -56,6 +57,11 @@ class Protocol:
         last = {(each.frame_id, each.extended): each.name for each in self.messages}
         pairs = ((each.name, last[each.frame_id, each.extended]) for each in self.messages)
         return {name: later for name, later in pairs if name != later}
+
+    @property
+    def in_several_frames(self) -> tuple[str, ...]:
+        """Messages that SAE J1939 transfers in several frames, which are not put together here."""
+        return tuple(each.name for each in self.messages if needs_several_frames(each))
 
 
 def known(protocol: model.Protocol) -> Protocol:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -38,6 +38,8 @@ class Summary:
         By name of the table.
     hidden
         Messages that no frame is, each with the one that has the same identifier.
+    in_several_frames
+        Messages that no single frame carries.
     """
 
     logs: int = 0
@@ -48,6 +50,7 @@ class Summary:
     seconds: float = 0.0
     rows: Counter[str] = field(default_factory=Counter[str])
     hidden: dict[str, str] = field(default_factory=dict[str, str])
+    in_several_frames: tuple[str, ...] = ()
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -59,6 +62,7 @@ class Summary:
         self.seconds += other.seconds
         self.rows.update(other.rows)
         self.hidden |= other.hidden
+        self.in_several_frames = other.in_several_frames
 
     def lines(self) -> Iterator[str]:
         """For people."""
@@ -80,6 +84,8 @@ class Summary:
                 yield f"{title}: {_listed(found)}"
         for name, other in self.hidden.items():
             yield f"{name} has the identifier of {other}: its frames count as those of {other}"
+        if self.in_several_frames:
+            yield f"in several frames, not decoded: {_names(self.in_several_frames)}"
         for name, gaps in sorted(faults.gaps.items()):
             yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
         for damage in self.damage:
@@ -117,6 +123,7 @@ class Summary:
             ],
             "rows": dict(self.rows),
             "hidden": self.hidden,
+            "in_several_frames": list(self.in_several_frames),
         }
 
 
@@ -131,6 +138,11 @@ def _identifiers(counts: Counts) -> Counter[str]:
 
 def _listed(found: Counter[str]) -> str:
     """The most frequent, and how many there are beside."""
-    text = ", ".join(f"{name} {many:,}" for name, many in found.most_common(_MOST))
-    left = len(found) - _MOST
+    return _names([f"{name} {many:,}" for name, many in found.most_common()])
+
+
+def _names(names: Sequence[str]) -> str:
+    """The first ones, and how many there are beside."""
+    left = len(names) - _MOST
+    text = ", ".join(names[:_MOST])
     return f"{text} and {left:,} more" if left > 0 else text

@@ -51,7 +51,7 @@ class Aspect(Enum):
     PROTECTION = "checksums and counters"
     TRANSFERS = "transfers and requests"
     ACTS = "codes that act"
-    FRAME_FORMATS = "classic CAN or CAN FD"
+    FRAME_FORMATS = "classic CAN or CAN FD, and what is found by its PGN"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,7 +70,9 @@ class Message:
     """What one identifier carries. ``period`` is in ms, None where it is sent on events only.
 
     With ``is_fd`` its frames are CAN FD frames, whatever their length, and with ``bit_rate_switch``
-    their payload has the second bit rate. ``other_senders`` may send it beside ``sender``.
+    their payload has the second bit rate. ``other_senders`` may send it beside ``sender``. With
+    ``by_pgn`` any frame with the PGN of its 29-bit identifier is one, as SAE J1939 has it, whatever
+    the priority, the source address and, where there is one, the destination.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Message:
     length: int
     is_fd: bool = False
     bit_rate_switch: bool = False
+    by_pgn: bool = False
     sender: str
     other_senders: tuple[str, ...] = ()
     period: int | None = None
@@ -188,7 +191,6 @@ class Protocol:
     title: str = ""
     english: str = ""
     edition: str = ""
-    frame_format: str = "ExtendedCAN"
     nodes: tuple[Node, ...] = ()
     buses: tuple[Bus, ...] = ()
     messages: tuple[Message, ...] = ()
@@ -202,6 +204,14 @@ class Protocol:
     def signals(self) -> Iterator[tuple[Message, Signal]]:
         """Every signal with its message, in order."""
         return ((message, signal) for message in self.messages for signal in message.signals)
+
+    @property
+    def frame_format(self) -> str:
+        """The word of VFrameFormat that says most of its messages in classic CAN frames."""
+        if any(message.by_pgn for message in self.messages):
+            return "J1939PG"
+        extended = any(message.extended for message in self.messages) or not self.messages
+        return "ExtendedCAN" if extended else "StandardCAN"
 
     def message(self, name: str) -> Message:
         """The message of that name; raises `KeyError`."""

@@ -14,6 +14,7 @@ from typing import Literal
 import can
 
 from typedcan.model.errors import TypedcanError, one_line
+from typedcan.model.j1939 import sent_identifier
 from typedcan.node.clock import Clock
 from typedcan.node.errors import StillActingError
 from typedcan.node.events import Dispatcher, NodeFailed
@@ -69,23 +70,25 @@ class Engine:
         reopen: Callable[[], can.BusABC] | None,
         leave: Leave,
         transfers: Transfers,
+        source_address: int,
     ) -> None:
         self._name = name
         self._clock = clock
         notices: deque[Notice] = deque()
         self.dispatcher = Dispatcher()
         self._port = Port(bus, clock, notices.append, reopen=reopen)
-        self._transmitter = Transmitter(self._port, codec, clock, notices.append)
+        self._transmitter = Transmitter(self._port, codec, clock, notices.append, source_address)
         self.outbox = Outbox(protocol, name, self._transmitter, self._port, clock)
         self._port.on_new_bus = self.outbox.cycles.take_all_back
         self.requests = Requests(protocol, self._say, self.outbox.last)
-        hearers = self._hearers(protocol)
-        self.inbox = Inbox(protocol, name, codec, supervisor, self.dispatcher, hearers, transfers)
+        hearers, sends = self._hearers(protocol), protocol.sent_by(name)
+        own = {(sent_identifier(kind.MODEL, source_address), kind.EXTENDED) for kind in sends}
+        self.inbox = Inbox(own, codec, supervisor, self.dispatcher, hearers, transfers)
         self._reception = Reception(
             self._port, self.inbox, self.requests, self.dispatcher, notices, clock
         )
         self._reception.start()
-        self._leaves_safe = leave == "safe" and any(map(acting_fields, protocol.sent_by(name)))
+        self._leaves_safe = leave == "safe" and any(map(acting_fields, sends))
         self._leaving = Leaving(self._transmitter, self._port, safe=self._leaves_safe)
         self.patience = _PATIENCE
         self._life = Life()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 import can
 
@@ -15,7 +15,6 @@ from typedcan.transfer import Blocks, Readings, Text, Transfers
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Counts, Received
 from typedcan.wire.message import Message
-from typedcan.wire.protocol import Protocol
 from typedcan.wire.receiver import Receiver
 
 Hearer = Callable[[Received[Message], float], object]
@@ -27,8 +26,9 @@ class Inbox:
 
     Parameters
     ----------
-    name
-        The node. Where the bus gives its own messages back, they are no news.
+    own
+        The identifiers that the node sends, and whether they have 29 bits. Where the bus gives its
+        own messages back, they are no news.
     hearers
         By message, who else takes part in it.
     transfers
@@ -37,8 +37,7 @@ class Inbox:
 
     def __init__(
         self,
-        protocol: Protocol,
-        name: str,
+        own: Collection[tuple[int, bool]],
         codec: Codec,
         supervisor: Supervisor,
         dispatcher: Dispatcher,
@@ -48,7 +47,7 @@ class Inbox:
         self._receiver = Receiver(codec)
         self._supervisor = supervisor
         self._emit = dispatcher.emit
-        self._own = frozenset(kind.FRAME_ID for kind in protocol.sent_by(name))
+        self._own = frozenset(own)
         self._transfers = transfers
         self._in_transfers = transfers.messages
         self._hearers = hearers
@@ -72,7 +71,7 @@ class Inbox:
 
     def take(self, frame: can.Message, now: float) -> bool:
         """Take a frame that came at ``now``; True where that may change `next_check`."""
-        if frame.arbitration_id in self._own:
+        if (frame.arbitration_id, frame.is_extended_id) in self._own:
             return False
         taken = self._receiver.take(frame)
         if isinstance(taken, Received):

@@ -7,6 +7,7 @@ from typing import Any, TypeVar, overload
 
 import can
 
+from typedcan.model.j1939 import address_in
 from typedcan.node.answers import Collector, MessageCollector, TransferCollector
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.cycles import Maker
@@ -67,6 +68,9 @@ class Node(Running):
     transfers
         What puts values of several frames together; those of the protocol's transfers if none is
         given.
+    source_address
+        The J1939 address to send from, where the database leaves it open (0xFE); without it, that
+        of the node.
     """
 
     def __init__(
@@ -84,6 +88,7 @@ class Node(Running):
         reopen: Callable[[], can.BusABC] | None = None,
         leave: Leave = "safe",
         transfers: Transfers | None = None,
+        source_address: int | None = None,
     ) -> None:
         self.protocol = protocol
         self.name = name
@@ -99,6 +104,7 @@ class Node(Running):
             timestamps=isinstance(self.clock, SystemClock),
         )
         self._transfers = transfers or Transfers(protocol)
+        own = address_in(protocol.model, name)
         self._engine = Engine(
             protocol,
             name,
@@ -109,6 +115,7 @@ class Node(Running):
             reopen=reopen,
             leave=leave,
             transfers=self._transfers,
+            source_address=own if source_address is None else source_address,
         )
         self._outbox = self._engine.outbox
         self._inbox = self._engine.inbox

@@ -30,10 +30,16 @@ class Transmitter:
     """Sends the messages of one node; any thread may."""
 
     def __init__(
-        self, port: Port, codec: Codec, clock: Clock, report: Callable[[SendFailed], None]
+        self,
+        port: Port,
+        codec: Codec,
+        clock: Clock,
+        report: Callable[[SendFailed], None],
+        source_address: int,
     ) -> None:
         self._port = port
         self._codec = codec
+        self._source_address = source_address
         self._clock = clock
         self._report = report
         self._counters = SendCounters()
@@ -69,7 +75,12 @@ class Transmitter:
 
     def frame(self, message: Message, *, safe: bool = False) -> can.Message:
         """The frame of a message as it would go out next; ``safe`` as `Codec.encode` has it."""
-        return self._codec.frame(message, counter=self._counters.peek(type(message)), safe=safe)
+        return self._codec.frame(
+            message,
+            counter=self._counters.peek(type(message)),
+            safe=safe,
+            source_address=self._source_address,
+        )
 
     def send(self, message: Message) -> None:
         """Send a message; the counter goes on once the bus has accepted the frame.

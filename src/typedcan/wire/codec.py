@@ -9,6 +9,7 @@ from typing import Any, overload
 import can
 
 from typedcan.model.checksums.registry import Given
+from typedcan.model.j1939 import sent_identifier
 from typedcan.model.protection import Counter
 from typedcan.model.protocol import FD_LENGTHS, LONGEST_CLASSIC
 from typedcan.model.seal import seals_of
@@ -70,6 +71,16 @@ class Codec:
         """The same for 11-bit identifiers: one number in both widths is two messages."""
         entries = self._database.standard.items()
         return {number: self._by_type[entry.type] for number, entry in entries}
+
+    def reader_by_pgn(self, frame_id: int) -> Reader | None:
+        """The same for the PGN of an identifier; None where no message is matched by it."""
+        entry = self._database.by_pgn.find(frame_id)
+        return self._by_type[entry.type] if entry else None
+
+    def kind(self, frame_id: int, *, extended: bool) -> type[Message] | None:
+        """The message class of an identifier of that width, or of its PGN, if there is one."""
+        entry = self._database.entry(frame_id, extended=extended)
+        return entry.type if entry else None
 
     def reader(self, kind: type[Message]) -> Reader:
         """The same for a message class; raises `UnknownMessageError`."""
@@ -140,22 +151,31 @@ class Codec:
         return data
 
     def frame(
-        self, message: Message, *, counter: int | None = None, safe: bool = False
+        self,
+        message: Message,
+        *,
+        counter: int | None = None,
+        safe: bool = False,
+        source_address: int | None = None,
+        destination: int | None = None,
     ) -> can.Message:
         """The frame that a message is sent in: its payload as `encode` makes it with ``renew``.
 
-        What a CAN FD payload lacks to a length that its frames can have is filled up with 0.
+        What a CAN FD payload lacks to a length that its frames can have is filled up with 0. The
+        addresses count as `sent_identifier` has it; without a source that of its sender is meant.
         Raises `EncodeError`, and `SendingError` for a payload that no frame carries.
         """
         kind = type(message)
         model = kind.MODEL
         data = self.encode(message, counter=counter, renew=True, safe=safe)
+        if source_address is None:
+            source_address = self._database.by_type[kind].source_address
         most = FD_LENGTHS[-1] if model.is_fd else LONGEST_CLASSIC
         if len(data) > most:
             sort = "CAN FD" if model.is_fd else "classic CAN"
             raise SendingError(f"{kind.NAME}: no frame of {sort} carries {len(data)} bytes")
         return can.Message(
-            arbitration_id=kind.FRAME_ID,
+            arbitration_id=sent_identifier(model, source_address, destination),
             is_extended_id=kind.EXTENDED,
             is_fd=model.is_fd,
             bitrate_switch=model.bit_rate_switch,
@@ -197,6 +217,8 @@ class Codec:
         reader = None if extended is False else self.readers.get(frame_id)
         if reader is None and not extended:
             reader = self.standard_readers.get(frame_id)
+        if reader is None and extended is not False:
+            reader = self.reader_by_pgn(frame_id)
         if reader is None:
             raise UnknownFrameError(frame_id, "no message of the protocol has this identifier")
         return reader

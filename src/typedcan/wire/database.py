@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
+from typedcan.model.j1939 import ByPgn, address_in
 from typedcan.model.layout import bits_reader
 from typedcan.model.protocol import Aspect
 from typedcan.wire.message import Message
@@ -21,7 +22,7 @@ class Entry:
     """A message class with what packs its bits and what makes it from raw values.
 
     ``counter`` reads the alive counter alone, where there is one; ``is_fd`` says that it has CAN FD
-    frames, None where the protocol says nothing of formats.
+    frames, None where the protocol says nothing of formats; ``source_address`` is its sender's.
     """
 
     type: type[Message]
@@ -29,19 +30,23 @@ class Entry:
     decode: Decoder
     counter: Callable[[bytes], int] | None
     is_fd: bool | None
+    source_address: int
 
 
 @dataclass(frozen=True, slots=True)
 class Database:
-    """All messages, by class and by identifier: 29 bits and 11 bits apart."""
+    """All messages, by class, by identifier, 29 bits and 11 bits apart, and by PGN."""
 
     by_type: Mapping[type[Message], Entry]
     extended: Mapping[int, Entry]
     standard: Mapping[int, Entry]
+    by_pgn: ByPgn[Entry]
 
     def entry(self, frame_id: int, *, extended: bool) -> Entry | None:
-        """Of the message with an identifier of that width, if there is one."""
-        return (self.extended if extended else self.standard).get(frame_id)
+        """Of the message that an identifier of that width is of, whole or by its PGN."""
+        if not extended:
+            return self.standard.get(frame_id)
+        return self.extended.get(frame_id) or self.by_pgn.find(frame_id)
 
 
 @cache
@@ -52,6 +57,7 @@ def database(protocol: Protocol) -> Database:
         by_type={entry.type: entry for entry in entries},
         extended={each.type.FRAME_ID: each for each in entries if each.type.EXTENDED},
         standard={each.type.FRAME_ID: each for each in entries if not each.type.EXTENDED},
+        by_pgn=ByPgn((each.type.MODEL, each) for each in entries),
     )
 
 
@@ -63,4 +69,5 @@ def _entry(message: type[Message], protocol: Protocol) -> Entry:
         decode=protocol.decoders[message],
         counter=bits_reader(counter, message.LENGTH) if counter else None,
         is_fd=message.MODEL.is_fd if Aspect.FRAME_FORMATS in protocol.model.carries else None,
+        source_address=address_in(protocol.model, message.SENDER),
     )

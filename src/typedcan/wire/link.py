@@ -43,6 +43,9 @@ class Link:
         For checksum algorithms of one's own.
     on_fault
         Is called with each `Fault` of a received frame, before `receive` goes on.
+    source_address
+        The J1939 address to send from, where the database leaves it open (0xFE); without it, that
+        of the node that sends the message.
     """
 
     def __init__(
@@ -51,10 +54,12 @@ class Link:
         codec: Codec,
         *,
         on_fault: Callable[[Fault], None] | None = None,
+        source_address: int | None = None,
     ) -> None:
         self._bus = bus
         self._codec = codec
         self._on_fault = on_fault
+        self._source_address = source_address
         self._sent = SendCounters()
         self._receiver = Receiver(self._codec)
         self._unread: deque[can.Message] = deque()
@@ -64,16 +69,24 @@ class Link:
         """A snapshot of how many frames came in and what became of them."""
         return self._receiver.counts
 
-    def send(self, message: Message, timeout: float | None = None) -> can.Message:
+    def send(
+        self, message: Message, timeout: float | None = None, *, destination: int | None = None
+    ) -> can.Message:
         """Send a message and return its frame.
 
         Checksum and alive counter are filled in, also where the message has old ones. The
         counter goes on once the bus has accepted the frame. ``timeout`` is python-can's, in
-        seconds. Raises `EncodeError` and `SendingError` before anything is sent, and
-        `can.CanError`.
+        seconds; ``destination`` is the J1939 address of the receiver, of messages that are matched
+        by PGN and are not always for all. Raises `EncodeError` and `SendingError` before anything
+        is sent, and `can.CanError`.
         """
         kind = type(message)
-        frame = self._codec.frame(message, counter=self._sent.peek(kind))
+        frame = self._codec.frame(
+            message,
+            counter=self._sent.peek(kind),
+            source_address=self._source_address,
+            destination=destination,
+        )
         self._bus.send(frame, timeout=timeout)
         self._sent.advance(kind)
         return frame

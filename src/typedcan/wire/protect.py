@@ -39,23 +39,25 @@ class ReceiveCounters:
     """What the alive counters of the other nodes were last, and what they should be next."""
 
     def __init__(self) -> None:
-        self._next: dict[type[Message], int] = {}
+        self._next: dict[tuple[type[Message], int], int] = {}
 
-    def problem(self, kind: type[Message], value: int) -> CounterProblem | None:
+    def problem(self, kind: type[Message], value: int, frame_id: int = 0) -> CounterProblem | None:
         """What is wrong with the counter of a message just received, or None.
 
-        The first message of a kind sets the counter; so does one with a wrong counter, so that a
-        single lost frame is reported once.
+        Each identifier with which it comes counts for itself: several nodes may send one PGN. The
+        first message of a kind sets the counter; so does one with a wrong counter, so that a single
+        lost frame is reported once.
         """
         counter = kind.COUNTER
         if counter is None:
             return None
-        expected = self._next.get(kind)
+        key = kind, frame_id
+        expected = self._next.get(key)
         if value != expected and not counter.holds(value):
-            self._next.pop(kind, None)
+            self._next.pop(key, None)
             said = kind.field_of(counter.signal).states.get(value, value)
             return CounterProblem("invalid", f"counter is {said}, it runs {counter}")
-        self._next[kind] = counter.after(value)
+        self._next[key] = counter.after(value)
         if expected is None or value == expected:
             return None
         last = counter.before(expected)

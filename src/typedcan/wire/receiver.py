@@ -8,6 +8,7 @@ from typing import Any, Generic, Literal
 
 import can
 
+from typedcan.model import j1939
 from typedcan.wire.codec import Codec
 from typedcan.wire.errors import LengthError
 from typedcan.wire.message import Message, MessageT_co
@@ -72,6 +73,21 @@ class Received(Generic[MessageT_co]):
         message: MessageT_co = self._message
         return message
 
+    @property
+    def source_address(self) -> int | None:
+        """The address of who sent it; None, as of the next two, unless it is matched by PGN."""
+        return j1939.source_address(self.frame.arbitration_id) if self.kind.MODEL.by_pgn else None
+
+    @property
+    def destination(self) -> int | None:
+        """The address of whom it is sent to; 255 for all."""
+        return j1939.destination(self.frame.arbitration_id) if self.kind.MODEL.by_pgn else None
+
+    @property
+    def priority(self) -> int | None:
+        """The priority in its identifier, 0 the highest."""
+        return j1939.priority(self.frame.arbitration_id) if self.kind.MODEL.by_pgn else None
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Received):
             return NotImplemented
@@ -121,6 +137,8 @@ class Receiver:
     def __init__(self, codec: Codec) -> None:
         self._extended = codec.readers
         self._standard = codec.standard_readers
+        by_pgn = any(kind.MODEL.by_pgn for kind in codec.protocol.messages)
+        self._by_pgn = codec.reader_by_pgn if by_pgn else None
         self._counters = ReceiveCounters()
         self._received = 0
         self._counts: Counter[str] = Counter()
@@ -137,6 +155,8 @@ class Receiver:
         """
         readers = self._extended if frame.is_extended_id else self._standard
         reader = readers.get(frame.arbitration_id)
+        if reader is None and self._by_pgn and frame.is_extended_id:
+            reader = self._by_pgn(frame.arbitration_id)
         if reader is None or frame.is_error_frame or frame.is_remote_frame:
             self._counts["foreign"] += 1
             return None
@@ -156,7 +176,8 @@ class Receiver:
         received._message = reader  # noqa: SLF001 - of this module
         received.faults = ()
         if reader.counter:
-            problem = self._counters.problem(reader.kind, reader.counter(data))
+            counter = reader.counter(data)
+            problem = self._counters.problem(reader.kind, counter, frame.arbitration_id)
             if problem is not None:
                 fault = self._fault("counter", reader, problem.text, frame, problem.kind)
                 received.faults = (fault,)
