@@ -10,10 +10,12 @@ import pyarrow as pa
 from swapcan.log_protocol import OWN
 from typedcan.logs import batch as batches
 from typedcan.logs import convert
+from typedcan.logs.checksums import NONE
 from typedcan.logs.pipeline import Options, Watch
 from typedcan.logs.plan import Mode
 from typedcan.logs.summary import Summary
 from typedcan.logs.write.target import Target
+from typedcan.model.checksums.registry import Given
 
 
 def convert_logs(
@@ -43,6 +45,7 @@ def decode_batch(
     mode: Mode = Mode.PHYSICAL,
     plain: bool = False,
     keep_faulty: bool = False,
+    algorithms: Given = NONE,
 ) -> dict[str, pa.RecordBatch]:
     """Decode frames; see `typedcan.logs.batch.decode_batch`."""
     return batches.decode_batch(
@@ -54,6 +57,7 @@ def decode_batch(
         mode=mode,
         plain=plain,
         keep_faulty=keep_faulty,
+        algorithms=algorithms,
     )
 
 

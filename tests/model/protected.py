@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import Decimal
 
 from typedcan.model.protection import Checksum, Counter
-from typedcan.model.protocol import ByteOrder, Message, Protocol, Signal
+from typedcan.model.protocol import ByteOrder, Message, Signal
 
 INTEL, MOTOROLA = ByteOrder.INTEL, ByteOrder.MOTOROLA
 
@@ -41,8 +41,3 @@ def message(
         checksum=checksum,
         counter=counter,
     )
-
-
-def protocol(*messages: Message) -> Protocol:
-    """Of these messages."""
-    return Protocol(name="guarded", messages=messages)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from cantools.autosar import end_to_end
-from model.protected import INTEL, MOTOROLA, message, protocol, signal
+from model.protected import INTEL, MOTOROLA, message, signal
 
 from typedcan.model.checksums.methods import Algorithm
 from typedcan.model.checksums.registry import AlgorithmError
@@ -172,13 +172,13 @@ def test_a_message_without_a_checksum_has_no_seal() -> None:
 def test_the_seals_of_a_protocol_are_those_that_something_computes() -> None:
     known = guarded_by(signal("Sum", 0, 8), "sum", 1)
     unknown = guarded_by(signal("Sum", 0, 8), "of_nobody", 1)
-    assert list(seals_of(protocol(known), {})) == ["Guarded"]
-    assert seals_of(protocol(unknown), {}) == {}
-    assert list(seals_of(protocol(unknown), {"of_nobody": "xor"})) == ["Guarded"]
+    assert list(seals_of([known], {})) == ["Guarded"]
+    assert seals_of([unknown], {}) == {}
+    assert list(seals_of([unknown], {"of_nobody": "xor"})) == ["Guarded"]
     with pytest.raises(AlgorithmError, match="no message has the algorithm 'mine'; known: sum"):
-        seals_of(protocol(known), {"mine": "xor"})
+        seals_of([known], {"mine": "xor"})
     with pytest.raises(AlgorithmError, match="'mine'; known: none"):
-        seals_of(protocol(), {"mine": "xor"})
+        seals_of([], {"mine": "xor"})
 
 
 CRC, COUNT = signal("Crc", 0, 8), signal("Count", 8, 4)

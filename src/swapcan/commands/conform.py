@@ -6,6 +6,7 @@ import argparse
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
+from typedcan.commands.algorithms import add_algorithm_option
 from typedcan.commands.bus_options import add_bus_options
 from typedcan.commands.conform import add_listening, add_log_options, names
 from typedcan.commands.log_options import need
@@ -16,6 +17,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     add_log_options(parser, PROTOCOL.nodes)
     add_listening(parser, "; with several scenarios one file each, such as bench-hv-on-off.blf")
     _add_driving(parser)
+    add_algorithm_option(parser)
     add_bus_options(parser)
 
 

@@ -116,7 +116,12 @@ def _driven(
     left = Left.UNTOUCHED
     with open_bus(given) as bus, Interrupts() as interrupts:
         name = record_name(given, bus)
-        stage = Stage(bus, is_over=lambda: interrupts.is_over, warn=lambda: warn(HUNG))
+        stage = Stage(
+            bus,
+            is_over=lambda: interrupts.is_over,
+            warn=lambda: warn(HUNG),
+            algorithms=choice.algorithms,
+        )
         interrupts.at_once, interrupts.hangs = stage.send_safe_codes, lambda: stage.hangs
         for (scenario, nodes), path in zip(scenarios, paths, strict=True):
             if interrupts.is_over or left is Left.UNKNOWN:

@@ -14,6 +14,8 @@ from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
 from swapcan.nodes.faults import FAULTS, able_nodes, planned_fault
 from swapcan.nodes.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.nodes.simulation import check
+from swapcan.wire import Codec
+from typedcan.commands.algorithms import add_algorithm_option, algorithms_of
 from typedcan.commands.bus_options import (
     add_bus_options,
     add_consent,
@@ -66,6 +68,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         "really be VCU and BMU on a bus where somebody may obey: high voltage comes on, chargers"
         " and cooling start; without it they are left out, save on the virtual interface",
     )
+    add_algorithm_option(parser)
     add_bus_options(parser)
     parser.add_argument(
         "--charger-bus",
@@ -102,11 +105,13 @@ def _run(options: argparse.Namespace) -> int:
     if not virtual and not options.yes_drive_the_bus:
         names = allowed_nodes(names, options.plan or (), options.faults)
     plan = _default_plan(names) if options.plan is None else options.plan
+    algorithms = algorithms_of(options)
+    Codec(algorithms)  # refuses what there is not before a bus is opened
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
         buses = [stack.enter_context(open_bus(each, virtual=virtual)) for each in named]
         name = bus_name(buses[0], options)
-        nodes = LivingNodes(options, names, plan, buses, name, virtual=virtual)
+        nodes = LivingNodes(options, names, plan, buses, name, algorithms, virtual=virtual)
         nodes.live(interrupts)
     interrupts.stop_if_asked()
     return interrupts.status or (0 if nodes.is_safe else 2)

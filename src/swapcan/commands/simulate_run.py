@@ -18,6 +18,7 @@ from typedcan.drive.departure import Departure
 from typedcan.drive.driving import LEAVING, Driving, Left, look_out_time
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.drive.watchdog import HUNG
+from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import SystemClock
 from typedcan.node.errors import LIVE, StillActingError
 from typedcan.shell.console import CommandError, note, warn
@@ -64,6 +65,8 @@ class LivingNodes:
         Nobody else is on them, and nothing can be moved.
     name
         What the vehicle's bus is called.
+    algorithms
+        What computes the checksums that the standard leaves open.
     """
 
     def __init__(
@@ -73,6 +76,7 @@ class LivingNodes:
         plan: Sequence[PlannedStep],
         buses: Sequence[can.BusABC],
         name: str,
+        algorithms: Given,
         *,
         virtual: bool,
     ) -> None:
@@ -80,6 +84,7 @@ class LivingNodes:
         self._names = names
         self._plan = plan
         self._name = name
+        self._algorithms = algorithms
         self._lent = buses
         self._looks_out = bool(_acting_nodes(names)) and not virtual
         self._buses: list[NotingBus] = []
@@ -89,10 +94,11 @@ class LivingNodes:
     def live(self, interrupts: Interrupts) -> None:
         """Look out for others where something acts, let them live, and leave the buses safe."""
         played = [kind for node in self._names for kind in PROTOCOL.sent_by(node)]
+        codec = Codec(self._algorithms)
         with ExitStack() as stack:
             self._buses = [
                 stack.enter_context(
-                    NotingBus(bus, Codec(), _ignore, played=played if self._looks_out else ())
+                    NotingBus(bus, codec, _ignore, played=played if self._looks_out else ())
                 )
                 for bus in self._lent
             ]
@@ -121,6 +127,7 @@ class LivingNodes:
             plan=self._plan,
             faults=self._options.faults,
             seed=self._options.seed,
+            algorithms=self._algorithms,
         )
         try:
             report = SimulationReport(simulation, as_json=self._options.json)

@@ -21,7 +21,9 @@ from typedcan.judge.judge import JudgeError as ConformError
 from typedcan.judge.judgement import Judgement, RuleResult, Status, Verdict
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
+from typedcan.logs.checksums import NONE
 from typedcan.logs.window import Moment
+from typedcan.model.checksums.registry import Given
 
 __all__ = [
     "RULES",
@@ -52,11 +54,15 @@ class Judge(judge.Judge):
         By what.
     limits
         Tolerances by name that are to have another value.
+    algorithms
+        What computes the checksums that the standard leaves open, as `swapcan.Codec` has it.
 
     Raises
     ------
     ConformError
         There is no such node or tolerance.
+    AlgorithmError
+        There is no algorithm of a name that is given, or what is given is none.
     """
 
     def __init__(
@@ -64,8 +70,12 @@ class Judge(judge.Judge):
         nodes: Iterable[str] = PROTOCOL.nodes,
         rules: Sequence[Rule] = RULES,
         limits: Mapping[str, float] | None = None,
+        *,
+        algorithms: Given = NONE,
     ) -> None:
-        super().__init__(PROTOCOL, rules, nodes=nodes, limits=limits, known=RULES)
+        super().__init__(
+            PROTOCOL, rules, nodes=nodes, limits=limits, known=RULES, algorithms=algorithms
+        )
 
 
 def judge_log(
@@ -77,6 +87,8 @@ def judge_log(
     start: Moment | None = None,
     end: Moment | None = None,
     watch: Callable[[int, int], None] | None = None,
+    algorithms: Given = NONE,
 ) -> Judgement:
     """Judge a log of any kind; see `typedcan.judge.logs.judge_log`, and `Judge`."""
-    return logs.judge_log(Judge(nodes, rules, limits), log, start=start, end=end, watch=watch)
+    by = Judge(nodes, rules, limits, algorithms=algorithms)
+    return logs.judge_log(by, log, start=start, end=end, watch=watch)

@@ -59,6 +59,7 @@ from swapcan.plant.sensors import (
 from swapcan.transfer import Vin, split_pack_code
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import State
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message, SignalState
 
@@ -107,6 +108,8 @@ class Bmu(Participant):
         Of what differs from pack to pack; not of a battery that is given.
     battery
         One that is not the usual.
+    codec
+        For checksum algorithms of one's own.
     """
 
     name = "BMU"
@@ -130,13 +133,17 @@ class Bmu(Participant):
         charger: can.BusABC | None = None,
         seed: int = 0,
         battery: Battery | None = None,
+        codec: Codec | None = None,
     ) -> None:
         clock = clock or SystemClock()
         apart = {C2B_ACStatus} if charger else set[type[Message]]()
-        self.node = Node(PROTOCOL, self.name, vehicle, clock=clock, expect=_expected() - apart)
+        expected = _expected() - apart
+        self.node = Node(PROTOCOL, self.name, vehicle, codec=codec, clock=clock, expect=expected)
         self.charger_node = self.node
         if charger:
-            self.charger_node = Node(PROTOCOL, self.name, charger, clock=clock, expect=apart)
+            self.charger_node = Node(
+                PROTOCOL, self.name, charger, codec=codec, clock=clock, expect=apart
+            )
         super().__init__(*dict.fromkeys((self.node, self.charger_node)))
         self._now = clock.now()
         self.pack = Pack(battery or Battery(seed=seed), self._now, seed=seed)

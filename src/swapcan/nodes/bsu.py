@@ -12,6 +12,7 @@ from swapcan.messages import BSU_BMS_0, ConnectorState, LockState, WarningLevel
 from swapcan.node import Node
 from swapcan.nodes.world import Participant
 from typedcan.node.clock import Clock, SystemClock
+from typedcan.wire.codec import Codec
 
 _AMBIENT = 31.0
 _HOT = 100.0
@@ -34,14 +35,18 @@ class Bsu(Participant):
         The vehicle's bus.
     clock
         The system's where none is given.
+    codec
+        For checksum algorithms of one's own.
     """
 
     name = "BSU"
     faults: ClassVar[frozenset[str]] = frozenset({"connector_over_temperature"})
 
-    def __init__(self, bus: can.BusABC, *, clock: Clock | None = None) -> None:
+    def __init__(
+        self, bus: can.BusABC, *, clock: Clock | None = None, codec: Codec | None = None
+    ) -> None:
         clock = clock or SystemClock()
-        self.node = Node(PROTOCOL, self.name, bus, clock=clock)
+        self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=clock)
         super().__init__(self.node)
         self.locked = True
         self.temperature = _AMBIENT

@@ -21,6 +21,7 @@ from swapcan.node import Node
 from swapcan.nodes.world import Participant
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import NotSeen, State, StateChanged
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
 from typedcan.wire.message import SignalState
 
@@ -49,6 +50,8 @@ class Chg(Participant):
         The system's where none is given.
     connected
         Whether it is connected to the truck from the beginning.
+    codec
+        For checksum algorithms of one's own.
     """
 
     name = "CHG"
@@ -57,10 +60,15 @@ class Chg(Participant):
     )
 
     def __init__(
-        self, bus: can.BusABC, *, clock: Clock | None = None, connected: bool = True
+        self,
+        bus: can.BusABC,
+        *,
+        clock: Clock | None = None,
+        connected: bool = True,
+        codec: Codec | None = None,
     ) -> None:
         self._clock = clock or SystemClock()
-        self.node = Node(PROTOCOL, self.name, bus, clock=self._clock)
+        self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=self._clock)
         super().__init__(self.node)
         self.current = 0.0
         self.voltage = 0.0

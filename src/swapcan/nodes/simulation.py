@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from types import TracebackType
-from typing import Self
+from typing import Self, TypedDict
 
 import can
 
@@ -20,6 +20,8 @@ from swapcan.nodes.tms import Tms
 from swapcan.nodes.vcu import VIN, Vcu
 from swapcan.nodes.world import World
 from swapcan.plant.battery import Battery
+from swapcan.wire import Codec
+from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import Clock, SimulatedClock, SystemClock
 from typedcan.node.errors import StillActingError
 from typedcan.node.leaving import raise_or_note
@@ -33,6 +35,14 @@ _NOBODYS = 0
 
 OpenBus = Callable[[], can.BusABC]
 """Opens a bus for one more node."""
+
+
+class _Own(TypedDict):
+    """What each node is handed."""
+
+    clock: Clock
+    codec: Codec
+
 
 Action = Callable[[], object]
 """Something to do at a given time."""
@@ -64,6 +74,8 @@ class Simulation:
         Of the truck.
     battery
         Of the pack, where it is not to be the usual.
+    algorithms
+        What computes the checksums that the standard leaves open, as `swapcan.Codec` has it.
 
     Raises
     ------
@@ -71,6 +83,8 @@ class Simulation:
         There is no such node.
     PlanError
         A node is named twice, or a step or a fault is for a node that is not there.
+    AlgorithmError
+        There is no algorithm of a name that is given, or what is given is none.
     """
 
     def __init__(
@@ -86,20 +100,23 @@ class Simulation:
         seed: int = 0,
         vin: str = VIN,
         battery: Battery | None = None,
+        algorithms: Given | None = None,
     ) -> None:
         names, plan, faults = tuple(nodes), tuple(plan), tuple(faults)
         check(names, plan, faults)
         self.clock = clock or SystemClock()
         self.wires = wires
         self.buses: dict[str, tuple[FaultyBus, ...]] = {}
+        self._algorithms = algorithms
         self._vehicle, self._charger = vehicle, charger or vehicle
         try:
             apart = charger is not None
-            self.bmu = self._bmu(seed, battery, apart=apart) if "BMU" in names else None
-            self.vcu = Vcu(self._bus("VCU"), clock=self.clock, vin=vin) if "VCU" in names else None
-            self.chg = self._chg(plan) if "CHG" in names else None
-            self.tms = Tms(self._bus("TMS"), clock=self.clock) if "TMS" in names else None
-            self.bsu = Bsu(self._bus("BSU"), clock=self.clock) if "BSU" in names else None
+            own: _Own = {"clock": self.clock, "codec": Codec(algorithms)}
+            self.bmu = self._bmu(own, seed, battery, apart=apart) if "BMU" in names else None
+            self.vcu = Vcu(self._bus("VCU"), vin=vin, **own) if "VCU" in names else None
+            self.chg = self._chg(own, plan) if "CHG" in names else None
+            self.tms = Tms(self._bus("TMS"), **own) if "TMS" in names else None
+            self.bsu = Bsu(self._bus("BSU"), **own) if "BSU" in names else None
             everybody = (self.bmu, self.vcu, self.chg, self.tms, self.bsu)
             self.participants = {each.name: each for each in everybody if each}
             self.world = World(*self.participants.values(), clock=self.clock, wires=wires)
@@ -190,7 +207,11 @@ class Simulation:
                     bus.release()
 
     def _bus(self, node: str, *, charger: bool = False) -> FaultyBus:
-        bus = FaultyBus(self._charger() if charger else self._vehicle(), clock=self.clock)
+        bus = FaultyBus(
+            self._charger() if charger else self._vehicle(),
+            clock=self.clock,
+            algorithms=self._algorithms,
+        )
         # As in a controller, what is meant for others never gets to the software.
         accepted = [kind.FRAME_ID for kind in PROTOCOL.received_by(node)] or [_NOBODYS]
         bus.set_filters(
@@ -199,14 +220,14 @@ class Simulation:
         self.buses[node] = (*self.buses.get(node, ()), bus)
         return bus
 
-    def _bmu(self, seed: int, battery: Battery | None, *, apart: bool) -> Bmu:
+    def _bmu(self, own: _Own, seed: int, battery: Battery | None, *, apart: bool) -> Bmu:
         charger = self._bus("BMU", charger=True) if apart else None
         vehicle = self._bus("BMU")
-        return Bmu(vehicle, clock=self.clock, charger=charger, seed=seed, battery=battery)
+        return Bmu(vehicle, charger=charger, seed=seed, battery=battery, **own)
 
-    def _chg(self, plan: tuple[PlannedStep, ...]) -> Chg:
+    def _chg(self, own: _Own, plan: tuple[PlannedStep, ...]) -> Chg:
         later = any(step.name == "charge" for step in plan)
-        return Chg(self._bus("CHG", charger=True), clock=self.clock, connected=not later)
+        return Chg(self._bus("CHG", charger=True), connected=not later, **own)
 
     def _schedule_fault(self, fault: PlannedFault) -> None:
         self.world.at(fault.start, lambda: self.inject(fault))

@@ -20,6 +20,7 @@ from swapcan.node import Node
 from swapcan.nodes.world import Participant
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import State, StateChanged
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
 from typedcan.wire.message import Code2, SignalState
 
@@ -45,14 +46,18 @@ class Tms(Participant):
         The vehicle's bus.
     clock
         The system's where none is given.
+    codec
+        For checksum algorithms of one's own.
     """
 
     name = "TMS"
     faults: ClassVar[frozenset[str]] = frozenset({"tms_fault"})
 
-    def __init__(self, bus: can.BusABC, *, clock: Clock | None = None) -> None:
+    def __init__(
+        self, bus: can.BusABC, *, clock: Clock | None = None, codec: Codec | None = None
+    ) -> None:
         clock = clock or SystemClock()
-        self.node = Node(PROTOCOL, self.name, bus, clock=clock)
+        self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=clock)
         super().__init__(self.node)
         self.outlet = self.inlet = _AMBIENT
         self._wanted = BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF)

@@ -36,6 +36,7 @@ from swapcan.transfer import PackCode, split_vin
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged
+from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message, SignalState
 
@@ -72,13 +73,22 @@ class Vcu(Participant):
         The system's where none is given.
     vin
         Of the truck; raises `TransferError` where it cannot be sent.
+    codec
+        For checksum algorithms of one's own.
     """
 
     name = "VCU"
 
-    def __init__(self, bus: can.BusABC, *, clock: Clock | None = None, vin: str = VIN) -> None:
+    def __init__(
+        self,
+        bus: can.BusABC,
+        *,
+        clock: Clock | None = None,
+        vin: str = VIN,
+        codec: Codec | None = None,
+    ) -> None:
         clock = clock or SystemClock()
-        self.node = Node(PROTOCOL, self.name, bus, clock=clock)
+        self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=clock)
         super().__init__(self.node)
         self.mode = Mode.OFF
         self.trouble = ""

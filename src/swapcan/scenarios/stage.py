@@ -15,6 +15,7 @@ from swapcan.scenarios.scenario import Scenario, ScenarioError
 from swapcan.wire import Codec
 from typedcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.errors import StillActingError
 from typedcan.simulate.echoes import Echoes
@@ -45,6 +46,8 @@ class Stage:
         Is told how many seconds have passed, and of how many.
     warn
         Is told, in a thread of its own, that the program hangs and the pack was told to switch off.
+    algorithms
+        What computes the checksums that the standard leaves open, as `swapcan.Codec` has it.
 
     ``left`` is how the scenario that was played last has left the pack; ``watch`` may be another
     one for the next.
@@ -59,6 +62,7 @@ class Stage:
         is_over: Callable[[], bool] = lambda: False,
         watch: Callable[[float, float], object] = lambda _passed, _all: None,
         warn: Callable[[], object] = lambda: None,
+        algorithms: Given | None = None,
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
@@ -66,6 +70,8 @@ class Stage:
         self._is_over = is_over
         self.watch = watch
         self._warn = warn
+        self._algorithms = algorithms
+        self._codec = Codec(algorithms)
         self._echoes = Echoes()
         self._driven: NotingBus | None = None
         self._driving: Driving | None = None
@@ -95,7 +101,7 @@ class Stage:
         self.left = Left.UNTOUCHED
         played = [kind for node in nodes for kind in PROTOCOL.sent_by(node)]
         with NotingBus(
-            self._bus, Codec(), note, clock=self._clock, played=played, echoes=self._echoes
+            self._bus, self._codec, note, clock=self._clock, played=played, echoes=self._echoes
         ) as bus:
             self._driven = bus
             self._driving = driving = Driving(
@@ -151,6 +157,7 @@ class Stage:
             plan=scenario.steps(nodes),
             clock=self._clock,
             wires=self._wires,
+            algorithms=self._algorithms,
         )
         for fault in scenario.faults:
             simulation.world.at(fault.start, partial(_inject, simulation, fault))

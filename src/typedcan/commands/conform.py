@@ -10,7 +10,7 @@ from pathlib import Path
 
 from typedcan.commands.bus_options import add_bus_options
 from typedcan.commands.log_options import add_window_options, need
-from typedcan.commands.tool import Tool, add_dbc_option, completing_files
+from typedcan.commands.tool import Tool, add_protocol_options, completing_files
 from typedcan.shell.command_line import Command
 from typedcan.simulate.times import PlanError, seconds_of
 
@@ -22,7 +22,7 @@ def command(tool: Tool) -> Command:
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
     add_log_options(parser)
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     add_listening(parser)
     add_bus_options(parser)
 

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
+from typedcan.commands.algorithms import algorithms_of
 from typedcan.judge import Judge, Judgement, Rule, judge_log
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.logs.window import Moment
+from typedcan.model.checksums.registry import Given
 from typedcan.shell.console import CommandError
 from typedcan.wire.protocol import Protocol
 
@@ -31,6 +33,8 @@ class Choice:
         Tolerances by name.
     strict
         Whether a recommendation counts like a demand.
+    algorithms
+        What computes the checksums that the standard leaves open.
     """
 
     protocol: Protocol
@@ -41,6 +45,7 @@ class Choice:
     skip: frozenset[str]
     limits: dict[str, float]
     strict: bool
+    algorithms: Given
 
     @classmethod
     def of(
@@ -75,6 +80,7 @@ class Choice:
             skip=frozenset(given.skip),
             limits=limits,
             strict=given.strict,
+            algorithms=algorithms_of(given),
         )
 
     def check(self, more: Sequence[Rule] = ()) -> None:
@@ -108,8 +114,14 @@ class Choice:
         return judge_log(self._judge(more), log, start=start, end=end, watch=watch)
 
     def _judge(self, more: Sequence[Rule]) -> Judge:
-        rules = self.chosen(more)
-        return Judge(self.protocol, rules, nodes=self.nodes, limits=self.limits, known=self.rules)
+        return Judge(
+            self.protocol,
+            self.chosen(more),
+            nodes=self.nodes,
+            limits=self.limits,
+            known=self.rules,
+            algorithms=self.algorithms,
+        )
 
 
 def _named(given: Iterable[str], nodes: Sequence[str]) -> list[str]:

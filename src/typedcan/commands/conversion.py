@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from typedcan.commands.algorithms import algorithms_of
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool, dbc_of
 from typedcan.logs.convert import convert_logs
@@ -68,6 +69,7 @@ def _options(given: argparse.Namespace) -> Options:
         mode=Mode.RAW if given.raw else Mode.LABELS if given.labels else Mode.PHYSICAL,
         layout=Layout.LONG if given.long else Layout.MESSAGES,
         keep_faulty=given.keep_faulty,
+        algorithms=algorithms_of(given),
     )
     if given.raster is not None:
         return replace(options, layout=Layout.RASTER, step=raster_step(given.raster))

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from typedcan.commands.log_options import add_window_options, need
-from typedcan.commands.tool import Tool, add_dbc_option, completing_files
+from typedcan.commands.tool import Tool, add_protocol_options, completing_files
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import count
 
@@ -39,7 +39,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         ),
     )
     completing_files(logs, output)
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     _add_choice(parser)
     parser.add_argument(
         "--keep-faulty", action="store_true", help="keep frames with a wrong length or checksum"

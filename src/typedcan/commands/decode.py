@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from typedcan.commands.log_file import LogFileError, read_log
-from typedcan.commands.tool import Tool, add_dbc_option, completing_files
+from typedcan.commands.tool import Tool, add_protocol_options, completing_files
 from typedcan.commands.transcript import JSON_HELP, Transcript
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, note
@@ -26,7 +26,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         help="any log that python-can reads: .asc, .blf, .csv, .db, .log, .trc, .mf4, or .asc.gz",
     )
     completing_files(file)
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
 
 

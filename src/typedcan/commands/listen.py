@@ -7,7 +7,7 @@ import math
 from functools import partial
 
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
-from typedcan.commands.tool import Tool, add_dbc_option
+from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.commands.transcript import JSON_HELP, Transcript
 from typedcan.drive.listening import listen
 from typedcan.shell.command_line import Command
@@ -20,7 +20,7 @@ def command(tool: Tool) -> Command:
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
     parser.add_argument("--count", type=count, default=math.inf, help="end after so many messages")

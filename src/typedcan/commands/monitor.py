@@ -18,7 +18,7 @@ import can
 
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus
 from typedcan.commands.monitor_lines import MonitorLines
-from typedcan.commands.tool import Tool, add_dbc_option
+from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.model.errors import one_line
 from typedcan.monitor.listener import Listener
 from typedcan.monitor.session import Recorded, Session
@@ -40,7 +40,7 @@ def command(tool: Tool) -> Command:
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     parser.add_argument(
         "--filter",
         default="",

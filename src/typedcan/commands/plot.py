@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from typedcan.commands.log_options import add_window_options, need
-from typedcan.commands.tool import Tool, add_dbc_option, completing_files
+from typedcan.commands.tool import Tool, add_protocol_options, completing_files
 from typedcan.shell.command_line import Command
 
 
@@ -31,7 +31,7 @@ def _add_arguments(tool: Tool, parser: argparse.ArgumentParser) -> None:
         metavar="OUT",
         help=".html: a page to zoom and to read values off; .png: a picture, needs matplotlib",
     )
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     completing_files(log, output)
     parser.add_argument(
         "--signals",

@@ -6,6 +6,7 @@ import argparse
 import secrets
 from pathlib import Path
 
+from typedcan.commands.algorithms import algorithms_of
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool
 from typedcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
@@ -65,6 +66,7 @@ def _request(options: argparse.Namespace, protocol: Protocol) -> PlotRequest:
         [_readings(protocol, name) for name in dict.fromkeys(options.readings)],
         start=_moment(options.start),
         end=_moment(options.end),
+        algorithms=algorithms_of(options),
     )
 
 

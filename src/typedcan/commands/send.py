@@ -6,7 +6,7 @@ import argparse
 from functools import partial
 
 from typedcan.commands.bus_options import add_bus_options, add_consent, is_virtual, open_bus
-from typedcan.commands.tool import Tool, add_dbc_option
+from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.commands.transcript import values_text
 from typedcan.commands.values import message_named, message_of
 from typedcan.drive.driving import Driving, look_out_time
@@ -41,7 +41,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         "send it also where it makes its receiver act: contactors close, chargers start; not needed"
         " on the virtual interface",
     )
-    add_dbc_option(parser)
+    add_protocol_options(parser)
     add_bus_options(parser)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from typedcan.commands.algorithms import add_algorithm_option, algorithms_of
 from typedcan.model import protocol as model
 from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.monitor.glance import Glance
@@ -77,7 +78,7 @@ class Tool:
 
     def codec(self, options: argparse.Namespace) -> Codec:
         """What encodes and decodes the messages of that protocol."""
-        return Codec(self.protocol(options))
+        return Codec(self.protocol(options), algorithms_of(options))
 
 
 def reading_tables(protocol: Protocol) -> dict[str, tuple[str, str]]:
@@ -101,8 +102,8 @@ def completing_files(*arguments: argparse.Action) -> None:
         vars(each)["complete"] = _FILE
 
 
-def add_dbc_option(parser: argparse._ActionsContainer) -> None:
-    """Add --dbc."""
+def add_protocol_options(parser: argparse._ActionsContainer) -> None:
+    """Add --dbc and --algorithm."""
     completing_files(
         parser.add_argument(
             "--dbc",
@@ -113,6 +114,7 @@ def add_dbc_option(parser: argparse._ActionsContainer) -> None:
             help="go by this database: .dbc, .kcd, .sym or .arxml",
         )
     )
+    add_algorithm_option(parser)
 
 
 def _in_words_of(found: model.Protocol, own: model.Protocol) -> model.Protocol:

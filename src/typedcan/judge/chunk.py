@@ -45,6 +45,7 @@ class Chunk(DecodedChunk):
             decoded.end,
             decoded.by_message,
             decoded.sound_by_message,
+            seals=decoded.seals,
         )
         self.timing = timing
         self.nodes = nodes

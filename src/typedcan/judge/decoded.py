@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from typedcan.judge.series import Series
 from typedcan.logs.frames import FrameBlock
+from typedcan.model.seal import Seal
 from typedcan.wire.message import Message
 
 
@@ -22,6 +23,8 @@ class DecodedChunk:
         Number of the block's first frame in the log, from 0.
     end
         The latest time so far, in seconds since the log's begin.
+    seals
+        By name of the message, what makes its checksum, where something does.
     """
 
     def __init__(
@@ -32,6 +35,8 @@ class DecodedChunk:
         end: float,
         frames: Mapping[type[Message], Series],
         sound: Mapping[type[Message], Series],
+        *,
+        seals: Mapping[str, Seal],
     ) -> None:
         self.block = block
         self.begin = begin
@@ -39,6 +44,7 @@ class DecodedChunk:
         self.end = end
         self.by_message = frames
         self.sound_by_message = sound
+        self.seals = seals
 
     def frames(self, message: type[Message]) -> Series:
         """The frames of a message with the right length, whatever their checksum."""

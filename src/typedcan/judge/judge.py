@@ -25,14 +25,16 @@ from typedcan.judge.rules import rules_for
 from typedcan.judge.series import Before, Series
 from typedcan.logs import protocol as logs
 from typedcan.logs.checks import rows_where
-from typedcan.logs.checksums import checksums_right, has_checksum
+from typedcan.logs.checksums import NONE, checksums_right
 from typedcan.logs.columns import MessageColumns
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.plan import Mode
 from typedcan.logs.protocol import known as known_protocol
 from typedcan.logs.transfers.cycles import CycleTable, ReadingColumns
+from typedcan.model.checksums.registry import Given
 from typedcan.model.errors import TypedcanError
+from typedcan.model.seal import seals_of
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
@@ -59,11 +61,15 @@ class Judge:
         Tolerances by name that are to have another value.
     known
         Further rules whose tolerances may be named, though they do not judge.
+    algorithms
+        What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
 
     Raises
     ------
     JudgeError
         There is no such node or tolerance, or nobody to judge.
+    AlgorithmError
+        No message has an algorithm of a name that is given, or what is given is none.
     """
 
     def __init__(
@@ -74,12 +80,15 @@ class Judge:
         nodes: Iterable[str] | None = None,
         limits: Mapping[str, float] | None = None,
         known: Sequence[Rule] = (),
+        algorithms: Given = NONE,
     ) -> None:
         rules = rules_for(protocol) if rules is None else rules
         every = nodes_of(protocol)
         self.nodes = every if nodes is None else tuple(nodes)
         self._protocol = protocol
         self._limits = dict(limits or {})
+        self._algorithms = algorithms
+        self._seals = seals_of(protocol.model.messages, algorithms)
         _check(every, self.nodes, self._limits, (*rules, *known))
         judged = [node for node in every if node in self.nodes]
         self._findings = [(rule, Findings(judged, self._limits)) for rule in rules]
@@ -151,14 +160,14 @@ class Judge:
         for message in self._protocol.messages:
             columns = decoded.messages.get(message.NAME)
             columns = None if columns is None else self._own(message, columns)
-            right = None if columns is None else _right(message, columns)
+            right = None if columns is None else self._right(message, columns)
             frames[message] = self._series(message, columns, begin, sound=False)
             if right is not None and columns is not None:
                 columns = rows_where(columns, right)
             sound[message] = self._series(message, columns, begin, sound=True)
             self._counts[message.NAME] += frames[message].fresh
         self._counts[""] += len(block) - sum(each.fresh for each in frames.values())
-        return DecodedChunk(block, begin, self._orders, self._end, frames, sound)
+        return DecodedChunk(block, begin, self._orders, self._end, frames, sound, seals=self._seals)
 
     def _measured(self, chunk: DecodedChunk) -> Chunk:
         """The chunk with what rules need to know of it, measured once for all of them."""
@@ -181,6 +190,14 @@ class Judge:
         series = Series(message, columns, before, begin, self._orders)
         self._before[message, sound] = series.last()
         return series
+
+    def _right(self, message: type[Message], columns: MessageColumns) -> NDArray[np.bool_] | None:
+        """Which frames have the right checksum; None: all."""
+        if message.NAME not in self._seals:
+            return None
+        payload = columns.block.data[columns.rows]
+        right = checksums_right(message.MODEL, payload, self._algorithms)
+        return None if right.all() else right
 
     def _own(self, message: type[Message], columns: MessageColumns) -> MessageColumns:
         """The frames that are what the standard says of them, on the channel of the first."""
@@ -213,14 +230,6 @@ class _Readings:
             for table in tables
             if table.channel == channels.get(table.readings.message, table.channel)
         ]
-
-
-def _right(message: type[Message], columns: MessageColumns) -> NDArray[np.bool_] | None:
-    """Which frames have the right checksum; None: all."""
-    if not has_checksum(message.MODEL):
-        return None
-    right = checksums_right(message.MODEL, columns.block.data[columns.rows])
-    return None if right.all() else right
 
 
 def _result(rule: Rule, findings: Findings) -> RuleResult:

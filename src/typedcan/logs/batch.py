@@ -22,6 +22,7 @@ from typedcan.logs.arrow import (
     plain_schema,
 )
 from typedcan.logs.checks import Checks
+from typedcan.logs.checksums import NONE
 from typedcan.logs.columns import MessageColumns
 from typedcan.logs.database import protocol_of
 from typedcan.logs.decode import Decoder
@@ -30,6 +31,7 @@ from typedcan.logs.plan import Mode
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.read import BLOCK_SIZE, Damage, open_log
 from typedcan.logs.selection import select
+from typedcan.model.checksums.registry import Given
 from typedcan.model.errors import TypedcanError
 
 _FRAME_FIELDS: list[pa.Field[Any]] = [
@@ -60,6 +62,7 @@ def decode_batch(
     mode: Mode = Mode.PHYSICAL,
     plain: bool = False,
     keep_faulty: bool = False,
+    algorithms: Given = NONE,
 ) -> dict[str, pa.RecordBatch]:
     """Decode frames. A pure function: the same frames give the same rows, in any process.
 
@@ -85,6 +88,8 @@ def decode_batch(
         that have neither, such as Spark.
     keep_faulty
         Keep frames of ``own`` that have a wrong length or checksum.
+    algorithms
+        What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
 
     Returns
     -------
@@ -97,6 +102,8 @@ def decode_batch(
         A column is missing or has an impossible type or value.
     DbcError, SelectionError
         The DBC cannot be read, or has no message or signal of such a name.
+    AlgorithmError
+        No message has an algorithm of a name that is given, or what is given is none.
     """
     protocol, decoder, tables = _prepared(own, dbc, tuple(messages), tuple(signals), mode)
     try:
@@ -104,7 +111,8 @@ def decode_batch(
         block = _block(frames)
     except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError) as error:
         raise BatchError(f"these are no frames: {error}") from None
-    decoded = Checks(protocol, keep_faulty=keep_faulty).take(decoder.decode(block))
+    checks = Checks(protocol, keep_faulty=keep_faulty, algorithms=algorithms)
+    decoded = checks.take(decoder.decode(block))
     found = {
         name: _batch(tables[name], columns, frames) for name, columns in decoded.messages.items()
     }

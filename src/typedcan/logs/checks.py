@@ -12,7 +12,6 @@ from typedcan.logs.checksums import (
     NONE,
     checksums_right,
     counter_places,
-    has_checksum,
     raw_values,
 )
 from typedcan.logs.columns import Column, DecodedBlock, MessageColumns
@@ -20,6 +19,7 @@ from typedcan.logs.protocol import Protocol
 from typedcan.model.checksums.registry import Given
 from typedcan.model.protection import Counter as AliveCounter
 from typedcan.model.protocol import Message, Signal
+from typedcan.model.seal import seals_of
 
 PERIODS = 5
 """More than so many periods without a frame are a gap."""
@@ -98,6 +98,11 @@ class Checks:
         all the same.
     algorithms
         What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
+
+    Raises
+    ------
+    AlgorithmError
+        No message has an algorithm of a name that is given, or what is given is none.
     """
 
     def __init__(
@@ -106,6 +111,7 @@ class Checks:
         self.faults = Faults()
         self._checked = protocol.checked
         self._algorithms = algorithms
+        self._sealed = seals_of(protocol.checked.values(), algorithms).keys()
         self._periods = {
             name: period
             for name, period in protocol.periods.items()
@@ -150,7 +156,7 @@ class Checks:
         wrong = len(good) - int(np.count_nonzero(good))
         if wrong:
             self.faults.length[message.name] += wrong
-        if has_checksum(message, self._algorithms):
+        if message.name in self._sealed:
             payload = columns.block.data[columns.rows]
             right = checksums_right(message, payload, self._algorithms)
             wrong = int(np.count_nonzero(good & ~right))

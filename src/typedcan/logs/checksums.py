@@ -24,22 +24,13 @@ _WORD = 62
 """Bits that the sums of columns may have."""
 
 
-def has_checksum(message: Message, given: Given = NONE) -> bool:
-    """Whether a message has a checksum that something computes.
-
-    Raises `typedcan.model.checksums.registry.AlgorithmError` for a given text that is no algorithm.
-    """
-    checksum = message.checksum
-    return checksum is not None and chosen_of(checksum.algorithm, given) is not None
-
-
 def checksums_right(
     message: Message, payload: NDArray[np.uint8], given: Given = NONE
 ) -> NDArray[np.bool_]:
-    """Which payloads, a row each, carry the checksum of their bytes; needs `has_checksum`.
+    """Which payloads, a row each, carry the checksum of their bytes.
 
-    An algorithm that somebody gives is called for each row. Raises as `has_checksum`, and for
-    what `typedcan.model.seal.seal_of` refuses.
+    An algorithm that somebody gives is called for each row. Raises as
+    `typedcan.model.seal.seal_of`, and `ValueError` where that has nothing to make a checksum by.
     """
     seal = seal_of(message, given)
     if seal is None or message.checksum is None:

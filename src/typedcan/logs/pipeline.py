@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from pathlib import Path
@@ -25,6 +25,8 @@ from typedcan.logs.selection import select
 from typedcan.logs.shapes import PerMessage, Shape
 from typedcan.logs.summary import Summary
 from typedcan.logs.window import Moment, within
+from typedcan.model.checksums.methods import Algorithm
+from typedcan.model.checksums.registry import Given
 
 _BLOCK = 1 << 17
 """Frames in a block: large enough that a message's share of it is worth a call per column."""
@@ -62,6 +64,9 @@ class Options:
         Seconds of the raster, where that is the layout.
     keep_faulty
         Keep frames with a wrong length or checksum.
+    algorithms
+        What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it. To
+        work on several logs at once, they must be functions of modules.
     derived
         Further tables. To work on several logs at once, they must be functions of modules.
     """
@@ -75,6 +80,7 @@ class Options:
     layout: Layout = Layout.MESSAGES
     step: Fraction = Fraction(1, 10)
     keep_faulty: bool = False
+    algorithms: Given = field(default_factory=dict[str, Algorithm | str])
     derived: tuple[Derive, ...] = ()
 
 
@@ -128,14 +134,14 @@ def read_rows(
     ------
     LogError
         The log cannot be opened.
-    SelectionError, TimeError
+    SelectionError, TimeError, AlgorithmError
         The options are wrong.
     """
     wanted = select(protocol, options.messages, options.signals)
     decoder = Decoder(
         protocol.messages, mode=options.mode, reserved=protocol.reserved, wanted=wanted
     )
-    checks = Checks(protocol, keep_faulty=options.keep_faulty)
+    checks = Checks(protocol, keep_faulty=options.keep_faulty, algorithms=options.algorithms)
     shapes = shapes_of(protocol, options)
     summary = Summary(logs=1, hidden=protocol.hidden, in_several_frames=protocol.in_several_frames)
     span = _Span()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
@@ -11,7 +11,7 @@ from typedcan.model.checksums.methods import Algorithm
 from typedcan.model.checksums.registry import WIDEST, AlgorithmError, Given, function_of
 from typedcan.model.layout import bits, bits_reader, bits_writer, whole_byte
 from typedcan.model.protection import Checksum, Counter
-from typedcan.model.protocol import Message, Protocol
+from typedcan.model.protocol import Message
 
 _LARGEST = (1 << 62) - 1
 """What a counter counts to at most: columns have signed numbers of 64 bits."""
@@ -75,17 +75,18 @@ def seal_of(message: Message, given: Given) -> Seal | None:
     )
 
 
-def seals_of(protocol: Protocol, given: Given) -> dict[str, Seal]:
+def seals_of(messages: Iterable[Message], given: Given) -> dict[str, Seal]:
     """By name of the message, what makes its checksum, where something does.
 
     Raises `AlgorithmError` as `seal_of`, and where no message has an algorithm of a given name.
     """
-    named = {each.checksum.algorithm: None for each in protocol.messages if each.checksum}
+    messages = tuple(messages)
+    named = {each.checksum.algorithm: None for each in messages if each.checksum}
     for name in given:
         if name not in named:
             known = ", ".join(named) or "none"
             raise AlgorithmError(f"no message has the algorithm {name!r}; known: {known}")
-    seals = ((each.name, seal_of(each, given)) for each in protocol.messages)
+    seals = ((each.name, seal_of(each, given)) for each in messages)
     return {name: seal for name, seal in seals if seal}
 
 

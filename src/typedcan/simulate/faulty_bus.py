@@ -61,7 +61,7 @@ class FaultyBus(can.BusABC):
         self._bus = bus
         self._clock = clock or SystemClock()
         self._entries = database(protocol)
-        self._seals = seals_of(protocol.model, algorithms or {})
+        self._seals = seals_of(protocol.model.messages, algorithms or {})
         # How many-th frames a fault hits, by the fault and the message, None for all messages.
         self._active: dict[tuple[str, type[Message] | None], int] = {}
         self._seen: Counter[tuple[str, Identifier]] = Counter()

@@ -49,7 +49,7 @@ class Codec:
 
     def __init__(self, protocol: Protocol, algorithms: Given | None = None) -> None:
         self.protocol = protocol
-        self._seals = seals_of(protocol.model, algorithms or {})
+        self._seals = seals_of(protocol.model.messages, algorithms or {})
 
     @cached_property
     def _database(self) -> Database:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +21,8 @@ from typedcan.logs.protocol import Protocol
 from typedcan.logs.read import LogSource, open_log
 from typedcan.logs.transfers import CycleCounts, CycleTable, ReadingColumns, Readings
 from typedcan.logs.window import Moment, within
+from typedcan.model.checksums.methods import Algorithm
+from typedcan.model.checksums.registry import Given
 from typedcan.shell.printing import printable
 
 _ABSOLUTE = 1e8
@@ -46,6 +48,8 @@ class PlotRequest:
         What is shown as heat maps.
     start, end
         The part of the log, None: from the first frame, to the last.
+    algorithms
+        What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
     """
 
     protocol: Protocol
@@ -53,6 +57,7 @@ class PlotRequest:
     readings: Sequence[Readings] = ()
     start: Moment | None = None
     end: Moment | None = None
+    algorithms: Given = field(default_factory=dict[str, Algorithm | str])
 
 
 def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> Plot:
@@ -81,7 +86,7 @@ def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> P
     decoder = Decoder(
         protocol.messages, mode=Mode.LABELS, reserved=protocol.reserved, wanted=wanted
     )
-    checks = Checks(protocol)
+    checks = Checks(protocol, algorithms=request.algorithms)
     clock = _Clock()
     collection = _Collection(request, clock)
     with open_log(path) as log:

@@ -11,8 +11,7 @@ from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
-from typedcan.logs.checksums import has_checksum
-from typedcan.model.seal import seal_of
+from typedcan.model.seal import Seal
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
@@ -31,25 +30,27 @@ class Checksum(Watcher):
         self._messages = messages
 
     def feed(self, chunk: Chunk) -> None:
-        """Judge all frames of messages that have a checksum."""
+        """Judge all frames of messages that have a checksum, where something computes it."""
         for message in self._messages:
+            seal = chunk.seals.get(message.NAME)
+            if seal is None:
+                continue
             series, sound = chunk.frames(message), chunk.sound(message)
             wrong = np.zeros(len(series), np.bool_)
             if series.fresh != sound.fresh:
                 wrong = ~np.isin(series.order, sound.order)
             subject = Subject(message.SENDER, message.NAME)
-            self.findings.rows(subject, series, wrong, partial(_describe, series))
+            self.findings.rows(subject, series, wrong, partial(_describe, seal, series))
 
 
-def _describe(series: Series, row: int) -> Said:
+def _describe(seal: Seal, series: Series, row: int) -> Said:
     data = bytes(series.payload[row])[: series.message.LENGTH]
-    seal = seal_of(series.message.MODEL, {})
-    return _WRONG, {"given": seal and seal.read(data), "right": seal and seal.expected(data)}
+    return _WRONG, {"given": seal.read(data), "right": seal.expected(data)}
 
 
 def rule(protocol: Protocol) -> Rule:
     """The rule of a protocol."""
-    protected = tuple(each for each in protocol.messages if has_checksum(each.MODEL))
+    protected = tuple(each for each in protocol.messages if each.CHECKSUM)
     return Rule(
         id="checksum",
         title=Text("Checksums are right", "校验和正确"),
