@@ -86,10 +86,8 @@ def decode_batch(
     plain
         Strings in place of dictionaries and signed integers in place of unsigned ones, for engines
         that have neither, such as Spark.
-    keep_faulty
-        Keep frames of ``own`` that have a wrong length or checksum.
-    algorithms
-        What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
+    keep_faulty, algorithms
+        As `typedcan.logs.pipeline.Options` has them.
 
     Returns
     -------
@@ -100,10 +98,8 @@ def decode_batch(
     ------
     BatchError
         A column is missing or has an impossible type or value.
-    DbcError, SelectionError
-        The DBC cannot be read, or has no message or signal of such a name.
-    AlgorithmError
-        No message has an algorithm of a name that is given, or what is given is none.
+    DbcError, SelectionError, AlgorithmError
+        The DBC cannot be read, or has no message, signal or algorithm of such a name.
     """
     protocol, decoder, tables = _prepared(own, dbc, tuple(messages), tuple(signals), mode)
     try:
