@@ -79,10 +79,8 @@ def decode_batch(
         The protocol where no database is given, and what is known of one made from it.
     dbc
         A DBC file, or another database; None: ``own``.
-    messages, signals
-        Names, as `typedcan.logs.selection.select` takes them; none: all.
-    mode
-        What the columns hold.
+    messages, signals, mode
+        Which, and what the columns hold, as `typedcan.logs.pipeline.Options` has them.
     plain
         Strings in place of dictionaries and signed integers in place of unsigned ones, for engines
         that have neither, such as Spark.
