@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from swapcan.messages import Manufacturer
 from swapcan.transfer import split_pack_code, split_vin
 from swapcan.wire import Codec as OwnCodec
 from typedcan.__main__ import main as typedcan
-from typedcan.logs.convert import convert_logs
+from typedcan.logs.convert import convert_logs, tables
 from typedcan.logs.pipeline import Options
 from typedcan.logs.protocol import known
 from typedcan.logs.transfers.tables import TransferTables
@@ -103,6 +104,25 @@ def test_csv_has_bytes_in_hexadecimal_and_numbers_in_brackets(log: Path, tmp_pat
 
     assert [row["data"] for row in rows("key_complete")] == ["0001020304050607"] * 2
     assert json.loads(rows("curve_complete")[0]["values"]) == [1.0, 2.0, 3.5, -100.0, 500.0]
+
+
+def test_mf4_has_them_as_texts_of_a_fixed_length(log: Path, tmp_path: Path) -> None:
+    asammdf: Any = pytest.importorskip("asammdf", reason="asammdf is an extra of its own")
+    target, _ = convert_logs([log], tmp_path / "out.mf4", ALL, own=known(rack().model))
+    with asammdf.MDF(target.path) as measured:
+        groups = {each.channel_group.acq_name: n for n, each in enumerate(measured.groups)}
+        texts = measured.get("text", group=groups["name_complete"]).samples.tolist()
+        data = measured.get("data", group=groups["key_complete"]).samples.tolist()
+    assert texts == ["电池架 1".encode()]
+    assert data == [b"0001020304050607"] * 2
+
+
+def test_what_is_known_of_transfers_can_be_handed_to_other_processes(log: Path) -> None:
+    own = known(rack().model)
+    handed = pickle.loads(pickle.dumps(own))
+    found, again = (tables(log, options=ALL, own=each) for each in (own, handed))
+    assert found == again
+    assert found["serial"].num_rows == 2
 
 
 def test_a_detail_called_like_a_column_gets_a_name_of_its_own() -> None:
