@@ -155,7 +155,7 @@ def test_blocks_of_other_numbers_are_a_conflict() -> None:
 
 def test_a_number_of_blocks_that_cannot_be_is_told() -> None:
     [problem] = outcomes("key", delivered("key", "0100000000000000"))
-    assert (problem.kind, problem.text) == ("length", "Key_Blocks tells 0: that cannot be")
+    assert (problem.kind, problem.text) == ("length", "Key_Blocks is 0: that cannot be")
 
 
 def test_blocks_hold_values_in_the_units_of_their_signals() -> None:

@@ -154,7 +154,7 @@ def test_each_frame_can_tell_how_many_items_or_frames_there_are(
     assert values_of(model, payloads) == [Text("plate", expected, {}, 0.01)]
     wrong = bytes([1, 0, 65, 66, 0, 0, 0, 0])
     [problem] = told(protocol, [wrong])
-    assert (problem.kind, problem.text) == ("length", "OF tells 0: that cannot be")
+    assert (problem.kind, problem.text) == ("length", "OF is 0: that cannot be")
 
 
 def test_a_number_that_another_message_tells_begins_anew_when_it_changes() -> None:

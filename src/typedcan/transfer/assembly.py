@@ -87,7 +87,7 @@ class Assembler(Generic[ResultT_co]):
         if type(message) not in self._readers:
             return ()
         name, read = self._readers[type(message)]
-        outcomes = self._rules.take(name, read(message), at)
+        outcomes = self._rules.feed(name, read(message), at)
         if not outcomes or self._make is None:
             return outcomes
         make = self._make

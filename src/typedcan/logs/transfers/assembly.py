@@ -134,7 +134,7 @@ class Assembly:
         self, frames: ReadingFrames, row: int, stop: int, found: list[Complete]
     ) -> int:
         """Up to the first complete cycle; gives the row behind."""
-        cycle, take = self._cycle, self._cycle.take
+        cycle, feed = self._cycle, self._cycle.feed
         part = slice(row, stop)
         times, keys = frames.time[part].tolist(), frames.key[part].tolist()
         for at, key, within in zip(times, keys, frames.within[part].tolist(), strict=True):
@@ -145,7 +145,7 @@ class Assembly:
                 if cycle.shape.forgettable:
                     self.forgotten = True
                     return row
-            outcome = take(key, within, row, at)
+            outcome = feed(key, within, row, at)
             row += 1
             if outcome is Outcome.KEPT:
                 continue
@@ -194,8 +194,8 @@ class Regular:
         before = np.array([cycle.shape.before(each) for each in groups], np.int64)
         within = frames.within[own]
         highest = ((key & NUMBERS) - 1 - before[group]) * cycle.width + within
-        odd = (highest > known[group]) & (within > 0)
-        self._odd = np.flatnonzero(odd) + first
+        news = (highest > known[group]) & (within > 0)
+        self._news = np.flatnonzero(news) + first
         self._breaks = np.flatnonzero(key[length:] != key[:-length]) + first + length
         self._steps = np.diff(frames.time[own], prepend=frames.time[first : first + 1])
         self._first = first
@@ -214,7 +214,7 @@ class Regular:
         order = own.argsort(kind="stable")
         if not np.array_equal(own[order], self._wanted):
             return none
-        end = self._before(self._odd, row, self._before(self._breaks, row + length, self._stop))
+        end = self._before(self._news, row, self._before(self._breaks, row + length, self._stop))
         count = self._in_time((end - row) // length, row, window, silence)
         first = np.arange(row, row + count * length, length, dtype=np.int64)
         return first[:, np.newaxis] + order

@@ -17,8 +17,8 @@ from typedcan.logs.transfers.stream import Cycles, Layout, Stream
 
 Channel = int | str | None
 
-Told = tuple[int | None, ...]
-"""How many groups and readings there are, as far as it is told; None where it is no number."""
+Totals = tuple[int | None, ...]
+"""How many groups and readings there are, as far as signals tell; None where it is no number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ class ReadingColumns:
         self._readings = tuple(readings)
         self._assume_seen = assume_seen
         self._streams: dict[tuple[str, Channel], Stream] = {}
-        self._told: dict[tuple[str, Channel], Told] = {}
+        self._totals: dict[tuple[str, Channel], Totals] = {}
         self._end = -math.inf
 
     def add(self, messages: Mapping[str, MessageColumns]) -> list[CycleTable]:
@@ -130,23 +130,25 @@ class ReadingColumns:
 
     def _changes(
         self, readings: Readings, channel: Channel, columns: MessageColumns | None
-    ) -> list[tuple[int, float, Told]]:
-        """Where in the block other totals are told, and when."""
-        if columns is None or not readings.told:
+    ) -> list[tuple[int, float, Totals]]:
+        """Where in the block the totals change, and when."""
+        if columns is None or not readings.total_signals:
             return []
-        for name in readings.told:
+        for name in readings.total_signals:
             if name not in columns.columns:
                 raise ColumnsError(f"{readings.name} need the totals: decode {name}")
         own = on_channel(columns, channel)
-        told = np.stack([_told(columns.columns[name], own) for name in readings.told])
-        new = np.ones(told.shape[1], np.bool_)
-        new[1:] = (told[:, 1:] != told[:, :-1]).any(axis=0)
+        values = np.stack(
+            [_whole_numbers(columns.columns[name], own) for name in readings.total_signals]
+        )
+        new = np.ones(values.shape[1], np.bool_)
+        new[1:] = (values[:, 1:] != values[:, :-1]).any(axis=0)
         rows, times = columns.rows[own], columns.timestamp[own]
-        changes: list[tuple[int, float, Told]] = []
+        changes: list[tuple[int, float, Totals]] = []
         for at in np.flatnonzero(new):
-            totals = tuple(None if each < 0 else int(each) for each in told[:, at])
-            if self._told.get((readings.name, channel)) != totals:
-                self._told[readings.name, channel] = totals
+            totals = tuple(None if each < 0 else int(each) for each in values[:, at])
+            if self._totals.get((readings.name, channel)) != totals:
+                self._totals[readings.name, channel] = totals
                 changes.append((int(rows[at]), float(times[at]), totals))
         return changes
 
@@ -156,7 +158,7 @@ class ReadingColumns:
         readings: Readings,
         channel: Channel,
         columns: MessageColumns | None,
-        changes: list[tuple[int, float, Told]],
+        changes: list[tuple[int, float, Totals]],
     ) -> list[Cycles]:
         """Frames and totals in the order in which they came."""
         own = slice(0) if columns is None else on_channel(columns, channel)
@@ -169,7 +171,7 @@ class ReadingColumns:
             before = int(np.searchsorted(rows, row))
             cycles += stream.take(before - taken)
             taken = before
-            stream.tell(totals, at)
+            stream.set_totals(totals, at)
         return cycles + stream.take(len(rows) - taken)
 
     @staticmethod
@@ -197,12 +199,12 @@ def _name(readings: Readings, layout: Layout) -> str:
     return "_".join([readings.name, *runs])
 
 
-def _told(column: Column, own: slice | NDArray[np.int64]) -> NDArray[np.int64]:
-    """The whole numbers that a signal tells, -1 where it tells none."""
-    told = column.values[own].astype(np.int64)
+def _whole_numbers(column: Column, own: slice | NDArray[np.int64]) -> NDArray[np.int64]:
+    """The whole numbers that a signal holds, -1 where it holds none."""
+    values = column.values[own].astype(np.int64)
     if column.valid is not None:
-        told[~column.valid[own]] = -1
-    return told
+        values[~column.valid[own]] = -1
+    return values
 
 
 def channels_of(*messages: MessageColumns | None) -> list[Channel]:

@@ -42,7 +42,7 @@ class Readings:
         Signals: the readings of a frame in order.
     unit
         Of the readings.
-    totals, told
+    totals, total_signals
         The message that tells how many there are, and its signals for that, of groups and of
         readings in all. Where the protocol fixes them, the message itself and no signals.
     word
@@ -61,7 +61,7 @@ class Readings:
     items: tuple[str, ...]
     unit: str
     totals: str
-    told: tuple[str, ...]
+    total_signals: tuple[str, ...]
     word: str
     parts: Parts = field(repr=False, compare=False)
 
@@ -99,7 +99,7 @@ def values_of(protocol: Protocol) -> tuple[Parts, ...]:
 
 def _readings(parts: Parts, group: Part, number: Part) -> Readings:
     states = (group.signal.invalid_code, group.signal.abnormal_code)
-    told = [part for part in (parts.groups, parts.count) if part]
+    total_signals = [part for part in (parts.groups, parts.count) if part]
     return Readings(
         name=parts.table,
         item=parts.column,
@@ -110,8 +110,8 @@ def _readings(parts: Parts, group: Part, number: Part) -> Readings:
         no_group=tuple(code for code in states if code is not None),
         items=tuple(part.signal.name for part in parts.items),
         unit=parts.items[0].signal.unit,
-        totals=told[0].message.name if told else parts.messages[0].name,
-        told=tuple(part.signal.name for part in told),
+        totals=total_signals[0].message.name if total_signals else parts.messages[0].name,
+        total_signals=tuple(part.signal.name for part in total_signals),
         word=re.sub(r"\W+", "_", parts.word.lower()),
         parts=parts,
     )

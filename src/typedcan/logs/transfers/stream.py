@@ -64,8 +64,8 @@ class Stream:
         self._next = 0  # of the rows held: before are those that pieces point to
         self._stop = 0  # of the rows held: from here on they are still to be taken
         self._unassigned = 0
-        if not readings.told:
-            self.tell((), 0.0)
+        if not readings.total_signals:
+            self.set_totals((), 0.0)
 
     @property
     def counts(self) -> CycleCounts:
@@ -88,9 +88,9 @@ class Stream:
             found += self._run()
         return found
 
-    def tell(self, told: tuple[int | None, ...], at: float) -> None:
-        """Note other totals, at that time."""
-        totals = totals_of(self._parts, told)
+    def set_totals(self, values: tuple[int | None, ...], at: float) -> None:
+        """Take other totals, at that time, in the order of groups and readings in all."""
+        totals = totals_of(self._parts, values)
         shape = None if totals is None else shape_of(self._parts, totals)
         if isinstance(shape, str):
             self._contradictions += 1

@@ -66,7 +66,7 @@ class ValueColumns:
                 if key not in self._rules:
                     self._rules[key] = self._new_rules(parts)
                 frames = _frames(there, channel, wanted)
-                yield from self._take(parts, channel, self._rules[key], frames)
+                yield from self._feed(parts, channel, self._rules[key], frames)
         for columns in messages.values():
             self._end = max(self._end, float(columns.block.timestamp.max(initial=-math.inf)))
 
@@ -79,12 +79,12 @@ class ValueColumns:
     def _new_rules(parts: Parts) -> Rules:
         return KINDS[parts.transfer.kind].rules(parts)
 
-    def _take(
+    def _feed(
         self, parts: Parts, channel: Channel, rules: Rules, frames: Iterable[_Frame]
     ) -> Iterator[Complete]:
         for _, at, message, values in frames:
             self._expire(rules, at)
-            for outcome in rules.take(message, values, at):
+            for outcome in rules.feed(message, values, at):
                 if isinstance(outcome, Problem):
                     self.problems.append(outcome)
                 else:

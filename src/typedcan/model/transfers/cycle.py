@@ -74,7 +74,7 @@ class Cycle(Generic[PieceT]):
         self.reset()
 
     def reset(self) -> None:
-        """Begin anew; what was told of the shape stays."""
+        """Begin anew; what the totals say of the shape stays."""
         self.pieces: dict[int, PieceT] = {}
         """What the cycle is made of so far, by key."""
         self.completed: list[PieceT] = []
@@ -123,8 +123,8 @@ class Cycle(Generic[PieceT]):
         self._overdue = True
         return True
 
-    def take(self, key: int, within: int, piece: PieceT, at: float) -> Outcome:
-        """Take a frame, after `expire`, and `reset` where `silence` has passed since the `last`.
+    def feed(self, key: int, within: int, piece: PieceT, at: float) -> Outcome:
+        """Feed a frame, after `expire`, and `reset` where `silence` has passed since the `last`.
 
         Parameters
         ----------

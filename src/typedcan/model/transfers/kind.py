@@ -87,7 +87,7 @@ class Rules(Protocol):
     """
 
     wanted: Mapping[str, tuple[Part, ...]]
-    """By message, the signals whose values `take` is given."""
+    """By message, the signals whose values `feed` is given."""
 
     @property
     def duplicates(self) -> int:
@@ -99,7 +99,7 @@ class Rules(Protocol):
         """When `expire` has something to do if no frame arrives; `math.inf` for never."""
         ...
 
-    def take(self, message: str, values: tuple[Any, ...], at: float) -> tuple[Any, ...]:
+    def feed(self, message: str, values: tuple[Any, ...], at: float) -> tuple[Any, ...]:
         """What a frame brings about: a value, problems, or neither."""
         ...
 
@@ -252,8 +252,8 @@ def _outsiders(parts: Parts) -> Iterable[Unfit]:
     names = [field_of(part) for part in parts.details]
     for name in {name for name in names if names.count(name) > 1}:
         yield Unfit("details", f"two of them are called {name} in code")
-    told = {part.message.name for part in (parts.count, parts.groups) if part} - parts.is_own
-    if len(told) > 1:
+    tellers = {part.message.name for part in (parts.count, parts.groups) if part} - parts.is_own
+    if len(tellers) > 1:
         yield Unfit("groups_signal", "another message than `count_signal`: one has to tell both")
 
 

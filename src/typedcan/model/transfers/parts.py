@@ -89,8 +89,8 @@ class Parts:
     @property
     def totals(self) -> str:
         """The message that tells how much there is, where it is none of its own; else empty."""
-        told = [part.message.name for part in (self.count, self.groups) if part]
-        return next((name for name in told if name not in self.is_own), "")
+        names = [part.message.name for part in (self.count, self.groups) if part]
+        return next((name for name in names if name not in self.is_own), "")
 
     @property
     def period(self) -> float | None:

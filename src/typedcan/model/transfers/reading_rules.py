@@ -93,20 +93,20 @@ class ReadingRules(Rules):
             raise ValueError(f"{transfer.name}: readings cannot be within {self._window:g} s")
         self._parts = parts
         self._totals = parts.totals
-        told = tuple(part for part in (parts.groups, parts.count) if part)
+        signals = tuple(part for part in (parts.groups, parts.count) if part)
         numbers = [part for part in (parts.group, parts.number) if part]
-        own = (*numbers, *(() if self._totals else told), *parts.items)
+        own = (*numbers, *(() if self._totals else signals), *parts.items)
         self.wanted = {parts.messages[0].name: own}
         if self._totals:
-            self.wanted[self._totals] = told
-        self._told = told
+            self.wanted[self._totals] = signals
+        self._total_parts = signals
         self._items = len(own) - len(parts.items)
         self._fills = fills_of(parts)
         self._cycle: Cycle[tuple[Any, ...]] | None = None
         self._known: Totals | None = None
         self._lacked = ""
-        if not told:
-            self._tell((), 0.0)
+        if not signals:
+            self._set_totals((), 0.0)
 
     @property
     def duplicates(self) -> int:
@@ -134,21 +134,21 @@ class ReadingRules(Rules):
             return f"only {cycle.shape.seen} of {count} readings had a value yet"
         return _named(self._parts, cycle.lacking)
 
-    def take(
+    def feed(
         self, message: str, values: tuple[Any, ...], at: float
     ) -> tuple[Readings | Problem, ...]:
         """What a frame brings about: a result, problems, or neither.
 
-        Takes the totals too, where they are told: without them nothing is complete.
+        Takes the totals too, where signals have them: without them nothing is complete.
         """
         overdue = self.expire(at)
         if message == self._totals:
-            return overdue + self._tell(values, at)
-        if not self._totals and self._told:
-            overdue += self._tell(values[2 : self._items], at)
+            return overdue + self._set_totals(values, at)
+        if not self._totals and self._total_parts:
+            overdue += self._set_totals(values[2 : self._items], at)
         if self._cycle is None:
             return overdue
-        return overdue + self._take_frame(self._cycle, values, at)
+        return overdue + self._feed_frame(self._cycle, values, at)
 
     def expire(self, now: float) -> tuple[Problem, ...]:
         """What is overdue at that time; said once until the next result."""
@@ -157,9 +157,9 @@ class ReadingRules(Rules):
         text = f"not complete within {self._window:g} s: {self.missing()}"
         return (self._problem("timeout", text, now),)
 
-    def _tell(self, told: Sequence[Any], at: float) -> tuple[Problem, ...]:
-        """Take the totals, fixed or told."""
-        totals = totals_of(self._parts, [whole(value) for value in told])
+    def _set_totals(self, values: Sequence[Any], at: float) -> tuple[Problem, ...]:
+        """Take the totals: those that are fixed, and what signals say of the others."""
+        totals = totals_of(self._parts, [whole(value) for value in values])
         if totals == self._known:
             return ()
         self._known, self._cycle, self._lacked = totals, None, ""
@@ -172,7 +172,7 @@ class ReadingRules(Rules):
         self._cycle = Cycle(self._parts.width, self._window, shape)
         return ()
 
-    def _take_frame(
+    def _feed_frame(
         self, cycle: Cycle[tuple[Any, ...]], values: tuple[Any, ...], at: float
     ) -> tuple[Readings | Problem, ...]:
         if at - cycle.last > cycle.silence:
@@ -182,7 +182,7 @@ class ReadingRules(Rules):
         key = 0
         if group is not None and number is not None:
             key = key_of(group - transfer.first_group + 1, number - transfer.first_number + 1)
-        outcome = cycle.take(key, _last_reading(items, self._fills), items, at)
+        outcome = cycle.feed(key, _last_reading(items, self._fills), items, at)
         if outcome is Outcome.COMPLETE:
             return (self._result(cycle, at),)
         if outcome is Outcome.FOREIGN:
@@ -217,8 +217,8 @@ class ReadingRules(Rules):
         return Problem(self._parts.transfer.name, kind, text, at)
 
 
-def totals_of(parts: Parts, told: Sequence[int | None]) -> Totals | None:
-    """How much there is; ``told`` has what its signals tell, in the order of groups and count.
+def totals_of(parts: Parts, values: Sequence[int | None]) -> Totals | None:
+    """How much there is; ``values`` has what its signals say, in the order of groups and count.
 
     None where it is not known: a sender that counts none has not counted yet, and no transfer has
     more than `MOST_ITEMS`.
@@ -226,7 +226,7 @@ def totals_of(parts: Parts, told: Sequence[int | None]) -> Totals | None:
     transfer = parts.transfer
     if transfer.counts:
         return Totals(len(transfer.counts), sum(transfer.counts))
-    rest = iter(told)
+    rest = iter(values)
     groups = next(rest, None) if parts.groups else transfer.groups
     count = next(rest, None) if parts.count else transfer.count
     if not groups or not count or not (0 < groups <= MOST_ITEMS and 0 < count <= MOST_ITEMS):
@@ -245,7 +245,7 @@ def shape_of(parts: Parts, totals: Totals) -> Shape | str:
         each, rest = divmod(totals.count, totals.groups)
         if rest:
             whose = f"{totals.count} readings of {totals.groups} {parts.word}s"
-            return f"{whose}, and their frames are numbered through: which has how many is not told"
+            return f"{whose}, and their frames are numbered through: how many each has is not known"
         counts = dict.fromkeys(range(1, totals.groups + 1), each)
     is_through = transfer.numbering is Numbering.THROUGH
     return FixedShape(counts, numbered_through(counts, parts.width) if is_through else None)

@@ -102,12 +102,12 @@ def split_items(parts: Parts, items: Sequence[Any], details: Mapping[str, Any]) 
     other items than the frames carry.
     """
     transfer = parts.transfer
-    told = transfer.count or len(parts.items)
+    count = transfer.count or len(parts.items)
     if parts.count:
-        told = len(items)
+        count = len(items)
         if transfer.counted is Counted.FRAMES:
-            told = -(told // -parts.width)
-    slots = slots_of(parts, told)
+            count = -(count // -parts.width)
+    slots = slots_of(parts, count)
     room = sum(len(slot.used) for slot in slots)
     is_exact = transfer.length is Ending.FIXED and transfer.counted is Counted.ITEMS
     if is_exact and not parts.length and len(items) != room:
@@ -118,7 +118,7 @@ def split_items(parts: Parts, items: Sequence[Any], details: Mapping[str, Any]) 
     done = 0
     for slot in slots:
         own = (*slot.used, *slot.unused)
-        values: dict[str, Any] = dict(_facts(parts, slot, told, len(items), details))
+        values: dict[str, Any] = dict(_facts(parts, slot, count, len(items), details))
         for place, part in enumerate(own, done):
             if place < len(items):
                 values[part.signal.name] = items[place]
@@ -130,12 +130,12 @@ def split_items(parts: Parts, items: Sequence[Any], details: Mapping[str, Any]) 
 
 
 def _facts(
-    parts: Parts, slot: Slot, told: int, length: int, details: Mapping[str, Any]
+    parts: Parts, slot: Slot, count: int, length: int, details: Mapping[str, Any]
 ) -> Iterator[tuple[str, Any]]:
     """What a frame says beside its items."""
     if parts.number:
         yield parts.number.signal.name, slot.number
-    for part, value in ((parts.count, told), (parts.length, length)):
+    for part, value in ((parts.count, count), (parts.length, length)):
         if part and part.message.name == slot.message:
             yield part.signal.name, value
     for part in parts.details:

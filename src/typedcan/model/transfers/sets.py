@@ -71,7 +71,7 @@ class SetRules(Rules, Generic[ValueT]):
         if self._totals and parts.count:
             self.wanted[self._totals] = (parts.count,)
         self._numbers = {message.name: n for n, message in enumerate(parts.messages, 1)}
-        self._told: int | None = None
+        self._count: int | None = None
         fixed = transfer.count or (0 if parts.count else len(parts.items))
         self._lay_out(fixed)
         self.reset()
@@ -107,15 +107,15 @@ class SetRules(Rules, Generic[ValueT]):
             return f"{self._totals} with the number of {self._items} is missing"
         return self._lacked or "no frame has arrived"
 
-    def take(
+    def feed(
         self, message: str, values: tuple[Any, ...], at: float
     ) -> tuple[ValueT | Problem, ...]:
         """What a frame brings about: a value, problems, or neither."""
         if message == self._totals:
-            return self._take_totals(whole(values[0]))
+            return self._set_count(whole(values[0]))
         outcomes: list[ValueT | Problem] = list(self.expire(at))
         if self._parts.count and not self._totals:
-            outcomes += self._take_own_total(whole(values[1]), at)
+            outcomes += self._set_own_count(whole(values[1]), at)
         number = values[0] if self._parts.number else self._numbers[message]
         if number not in self.slots:
             return (*outcomes, *self._no_slot(number, at))
@@ -170,36 +170,35 @@ class SetRules(Rules, Generic[ValueT]):
             for number, slot in self.slots.items()
         }
 
-    def _take_totals(self, told: int | None) -> tuple[()]:
-        if told != self._told:
-            self._told = told
-            self._lay_out(self._possible(told))
+    def _set_count(self, count: int | None) -> tuple[()]:
+        if count != self._count:
+            self._count = count
+            self._lay_out(self._possible(count))
             self.reset()
         return ()
 
-    def _take_own_total(self, told: int | None, at: float) -> list[Problem]:
+    def _set_own_count(self, count: int | None, at: float) -> list[Problem]:
         """How much there is, as one of its own frames says."""
-        if told == self._told and self.slots:
+        if count == self._count and self.slots:
             return []
-        before, self._told = self._told, told
+        before, self._count = self._count, count
         begun = bool(self._known) and before is not None
         self._drop()
         self._known.clear()
-        self._lay_out(self._possible(told))
+        self._lay_out(self._possible(count))
         if not self.slots:
-            count = self._parts.count
-            name = count.signal.name if count else ""
-            return [self._problem("length", f"{name} tells {told}: that cannot be", at)]
+            name = self._parts.count.signal.name if self._parts.count else ""
+            return [self._problem("length", f"{name} is {count}: that cannot be", at)]
         if not begun:
             return []
-        return [self._conflict(f"{told} {self._items} in place of {before}", at)]
+        return [self._conflict(f"{count} {self._items} in place of {before}", at)]
 
-    def _possible(self, told: int | None) -> int:
-        """How much there is as it was told; 0 where that cannot be."""
+    def _possible(self, count: int | None) -> int:
+        """The number of items, or frames; 0 where it cannot be."""
         room = min(self._parts.capacity, MOST_ITEMS)
         if self._parts.transfer.counted is Counted.FRAMES:
             room = -(room // -max(1, self._parts.width))
-        return told if told and 0 < told <= room else 0
+        return count if count and 0 < count <= room else 0
 
     def _no_slot(self, number: Any, at: float) -> tuple[Problem, ...]:
         if not self.slots:

@@ -1,4 +1,4 @@
-"""How many readings each group has: told, fixed, or shown by what arrives."""
+"""How many readings each group has: announced, fixed, or shown by what arrives."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Shape(Protocol):
         ...
 
     def counts(self) -> Mapping[int, int] | None:
-        """The number of readings of each group, or None while it cannot be told."""
+        """The number of readings of each group, or None while it is not known."""
         ...
 
     def anew(self) -> Shape:
@@ -128,7 +128,7 @@ class TotalsShape(Shape):
         return self._highest.get(group, 0)
 
     def counts(self) -> Mapping[int, int] | None:
-        """The number of readings of each group, or None while it cannot be told."""
+        """The number of readings of each group, or None while it is not known."""
         groups = range(1, self.totals.groups + 1)
         if self.is_certain:
             return {group: self._highest.get(group, 0) for group in groups}
