@@ -2,12 +2,16 @@
 
 Run as a program, in a process of its own, with the folder that the packages lie in, and the name of
 a package and its DBC file for each: ``python -m typedcan.trial FOLDER PACKAGE FILE.dbc``. It prints
-a fault a line and exits 1 where there is one; else it prints the messages of which nothing can be
-said, as cantools decodes none of their payloads.
+a fault a line and exits 1 where there is one.
+
+What cantools decodes whole is compared whole. Of other messages, such as those with signals that
+overlap or lie outside, and of payloads whose selectors select nothing, each signal is compared for
+itself, in a message that has no other.
 """
 
 from __future__ import annotations
 
+import copy
 import importlib
 import math
 import random
@@ -25,11 +29,12 @@ from typedcan.model import layout
 from typedcan.model.errors import one_line
 from typedcan.model.protocol import Signal
 from typedcan.model.signal_state import SignalState
+from typedcan.model.soundness import hidden
 from typedcan.shell.printing import print_line
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import Entry, database
 from typedcan.wire.errors import EncodeError
-from typedcan.wire.fields import Field, FloatField, PhysicalField
+from typedcan.wire.fields import ExactField, Field, FloatField, PhysicalField
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
@@ -39,28 +44,22 @@ _PAYLOADS = 6
 _BRANCHES = 100
 """Signals of branches that are tried, of a message."""
 
-_EXACT = 1 << 53
-
-Raw = Mapping[str, int | float]
+Values = Mapping[str, tuple[Any, Any]]
+"""Raw and physical values of the signals that are there, by their names."""
 
 
 def main(arguments: Sequence[str]) -> int:
     """Try the packages that are named, print what is wrong, and say whether something is."""
     folder, package, file = arguments
     sys.path.insert(0, str(Path(folder).resolve()))
-    untold: list[str] = []
-    faults = [*tried(package, Path(file), untold)]
-    for line in faults or untold:
+    faults = [*tried(package, Path(file))]
+    for line in faults:
         print_line(line)
     return 1 if faults else 0
 
 
-def tried(package: str, file: Path, untold: list[str]) -> Iterator[str]:
-    """What is wrong with a package, a line each; ``file`` is its DBC.
-
-    ``untold`` gets the messages of which cantools decodes nothing, such as those with signals that
-    overlap or lie outside: nothing can be said of them.
-    """
+def tried(package: str, file: Path) -> Iterator[str]:
+    """What is wrong with a package, a line each; ``file`` is its DBC."""
     try:
         protocol: Protocol = importlib.import_module(f"{package}.protocol").PROTOCOL
         codec = Codec(protocol)
@@ -72,114 +71,128 @@ def tried(package: str, file: Path, untold: list[str]) -> Iterator[str]:
     if not isinstance(theirs, Database):
         raise TypeError(f"{file}: is no CAN database")
     by_id = {(each.is_extended_frame, each.frame_id): each for each in theirs.messages}
+    not_written = hidden(protocol.model)
     for kind, entry in entries.items():
         message = by_id.get((kind.EXTENDED, kind.FRAME_ID))
+        if kind.NAME in not_written:
+            continue
         if message is None:
             yield f"{kind.NAME}: is not in {file.name}"
             continue
         try:
-            trial = _Trial(codec, entry, message)
-            yield from trial.faults()
-            if not trial.compared:
-                untold.append(kind.NAME)
+            yield from _Trial(codec, entry, Oracle(kind.MODEL.signals, message)).faults()
         except Exception as error:  # noqa: BLE001
             yield f"{kind.NAME}: {one_line(error)}"
+
+
+class Oracle:
+    """What cantools has in payloads of a message, as far as these signals can be read in them."""
+
+    def __init__(self, signals: Sequence[Signal], message: CantoolsMessage) -> None:
+        self._message = message
+        self._signals = {signal.name: signal for signal in signals}
+        named = {None, *(each.name for each in message.signals)}
+        # cantools loses the branches of a selector that has a long name.
+        self._is_whole = named.issuperset(each.multiplexer_signal for each in message.signals)
+
+    def values(self, data: bytes, readable: Sequence[str]) -> Values:
+        """The values of the readable signals that are there."""
+        whole = self._whole(data)
+        return self._apart(data, readable) if whole is None else whole
+
+    def encoded(self, data: bytes) -> bytes | None:
+        """What a payload is sent as again; None where cantools does not decode it whole."""
+        whole = self._whole(data)
+        if whole is None:
+            return None
+        raw = {name: raw for name, (raw, _) in whole.items()}
+        return self._message.encode(raw, scaling=False, strict=False)
+
+    def _whole(self, data: bytes) -> Values | None:
+        decode = self._message.decode_simple
+        try:
+            raw = decode(data, decode_choices=False, scaling=False)
+            scaled = decode(data, decode_choices=False)
+        except (cantools.database.DecodeError, ValueError, OverflowError):
+            return None
+        # With scaling cantools selects by the physical value of a selector.
+        if not self._is_whole or raw.keys() != scaled.keys():
+            return None
+        return {name: (raw[name], scaled[name]) for name in raw}
+
+    def _apart(self, data: bytes, readable: Sequence[str]) -> Values:
+        values = {name: _alone(self._message, name, data) for name in readable}
+        return {name: pair for name, pair in values.items() if self._is_there(name, values)}
+
+    def _is_there(self, name: str, values: Values) -> bool:
+        signal = self._signals[name]
+        above = signal.multiplexer
+        if not above:
+            return True
+        return values[above][0] in signal.selectors and self._is_there(above, values)
+
+
+def _alone(message: CantoolsMessage, name: str, data: bytes) -> tuple[Any, Any]:
+    """Raw and physical value of a signal, read in a message that has no other."""
+    signal = copy.copy(message.get_signal_by_name(name))
+    signal.is_multiplexer, signal.multiplexer_ids, signal.multiplexer_signal = False, None, None
+    alone = CantoolsMessage(1, "Alone", message.length, [signal], strict=False)
+    raw = alone.decode_simple(data, decode_choices=False, scaling=False)
+    return raw[name], alone.decode_simple(data, decode_choices=False)[name]
 
 
 class _Trial:
     """One message beside cantools."""
 
-    def __init__(self, codec: Codec, entry: Entry, theirs: CantoolsMessage) -> None:
+    def __init__(self, codec: Codec, entry: Entry, oracle: Oracle) -> None:
         self._codec = codec
         self._entry = entry
         self._kind = entry.type
-        self._theirs = theirs
-        self.compared = False
+        self._oracle = oracle
         self._fields = {each.dbc_name: each for each in self._kind.FIELDS.values()}
 
     def faults(self) -> Iterator[str]:
         """The first thing that is wrong, if any."""
-        names = {None, *(each.name for each in self._theirs.signals)}
-        if not names.issuperset(each.multiplexer_signal for each in self._theirs.signals):
-            return  # cantools loses the branches of a selector that has a long name
-        for data in self._payloads():
-            raw = self._raw(data)
-            self.compared |= raw is not None
-            if raw is not None and (fault := self._decoded(data, raw) or self._encoded(data, raw)):
-                yield f"{self._kind.NAME}: {fault}"
+        for data in payloads(self._kind):
+            values = self._oracle.values(data, [*self._fields])
+            message = self._entry.decode(self._entry.packer.unpack(data))
+            if fault := self._decoded(message, values) or self._encoded(message, data, values):
+                yield f"{self._kind.NAME}: {fault} in {data.hex()}"
                 return
         if fault := self._default():
             yield f"{self._kind.NAME}: {fault}"
 
-    def _payloads(self) -> Iterator[bytes]:
-        length = self._kind.LENGTH
-        yield bytes(length)
-        yield b"\xff" * length
-        source = random.Random(self._kind.NAME)
-        for _ in range(_PAYLOADS if length else 0):
-            yield source.randbytes(length)
-        for selected in self._branches():
-            yield _with_codes(source.randbytes(length), selected)
-
-    def _branches(self) -> Iterator[dict[Signal, int]]:
-        """Values of the selectors with which each branch is there, others at one that they know."""
-        by_name = {signal.name: signal for signal in self._kind.MODEL.signals}
-        within = [each for each in by_name.values() if each.multiplexer in by_name]
-        usual = {by_name[each.multiplexer]: each.selectors[0] for each in reversed(within)}
-        for signal in within[:_BRANCHES]:
-            selected, inner = dict(usual), signal
-            for _ in within:  # no deeper than that
-                if inner.multiplexer in by_name:
-                    selected[by_name[inner.multiplexer]] = inner.selectors[0]
-                    inner = by_name[inner.multiplexer]
-            yield selected
-
-    def _raw(self, data: bytes) -> Raw | None:
-        """The raw values by cantools; None where it knows no such branch or a float is none."""
-        try:
-            raw: Any = self._theirs.decode_simple(data, decode_choices=False, scaling=False)
-        except cantools.database.DecodeError:
-            return None
-        return None if any(map(math.isnan, raw.values())) else raw
-
-    def _decoded(self, data: bytes, raw: Raw) -> str:
+    def _decoded(self, message: Message, values: Values) -> str:
         """What is wrong with the values of the message in a payload."""
-        message = self._entry.decode(self._entry.packer.unpack(data))
-        scaled: Any = self._theirs.decode_simple(data, decode_choices=False)
-        for field in self._kind.FIELDS.values():
-            name, value = field.dbc_name, getattr(message, field.name)
-            if (value is None) != (name not in raw):
-                return f"{field.name} is {value!r}, cantools has {raw.get(name)!r}"
-            if value is not None and not _same(field, value, raw[name], scaled[name]):
-                return f"{field.name} is {value!r}, cantools has {scaled[name]!r}"
+        for name, field in self._fields.items():
+            value = getattr(message, field.name)
+            raw, scaled = values.get(name, (None, None))
+            if (value is None) != (raw is None) or not _same(field, value, raw, scaled):
+                return f"{field.name} is {value!r}, cantools has {scaled!r}"
         return ""
 
-    def _encoded(self, data: bytes, raw: Raw) -> str:
+    def _encoded(self, message: Message, data: bytes, values: Values) -> str:
         """What is wrong with the payload that the message is sent as.
 
         A value that was received may lie outside of what can be sent.
         """
-        message = self._entry.decode(self._entry.packer.unpack(data))
         try:
-            mine = self._codec.encode(message)
-        except EncodeError:
-            return ""
-        theirs = self._theirs.encode(dict(raw), scaling=False, strict=False)
-        again = self._raw(mine) or {}
-        exact = [name for name in raw if not self._is_rounded(name, raw[name])]
-        if mine == theirs or (len(exact) < len(raw) and all(again[n] == raw[n] for n in exact)):
-            return ""
-        return f"sent as {mine.hex()}, cantools sends {theirs.hex()}"
-
-    def _is_rounded(self, name: str, raw: float) -> bool:
-        """Whether a raw value need not survive the way through its physical value.
-
-        A float has no room for all integers of over 53 bits, nor for what is tiny beside an offset.
-        """
-        field = self._fields[name]
-        if isinstance(field, FloatField):
-            return field.factor != 1 or bool(field.offset)
-        return isinstance(field, PhysicalField) and abs(raw) >= _EXACT
+            sent = self._codec.encode(message)
+        except EncodeError as error:
+            field = self._kind.FIELDS[error.field]
+            return "" if _cannot_be_sent(field, *values[field.dbc_name]) else str(error)
+        there = [self._fields[name] for name in values]
+        mask, rounded = (
+            sum({1 << bit for field in fields for bit in layout.bits(field.signal)})
+            for fields in (there, filter(_is_rounded, there))
+        )
+        mine, right = (int.from_bytes(each, "little") for each in (sent, data))
+        if (mine ^ right & mask) & ~rounded:
+            return f"sent as {sent.hex()}"
+        theirs = self._oracle.encoded(data)
+        if theirs is not None and (mine ^ int.from_bytes(theirs, "little")) & ~rounded:
+            return f"sent as {sent.hex()}, cantools sends {theirs.hex()}"
+        return ""
 
     def _default(self) -> str:
         """What is wrong with a message that nothing is given of but what must be given."""
@@ -188,8 +201,35 @@ class _Trial:
             data = self._codec.encode(message)
         except EncodeError:
             return ""  # what is sent of no value is outside of the range
-        raw = self._raw(data)
-        return self._decoded(data, raw) if raw is not None else ""
+        return self._decoded(
+            self._entry.decode(self._entry.packer.unpack(data)),
+            self._oracle.values(data, [*self._fields]),
+        )
+
+
+def payloads(kind: type[Message]) -> Iterator[bytes]:
+    """Payloads of all 0, of all 1, random ones, and some for each branch."""
+    length = kind.LENGTH
+    yield bytes(length)
+    yield b"\xff" * length
+    source = random.Random(kind.NAME)
+    for _ in range(_PAYLOADS if length else 0):
+        yield source.randbytes(length)
+    for selected in _branches(kind):
+        yield _with_codes(source.randbytes(length), selected)
+
+
+def _branches(kind: type[Message]) -> Iterator[dict[Signal, int]]:
+    """Values of the selectors with which each branch is there, others at one that they know."""
+    by_name = {field.dbc_name: field.signal for field in kind.FIELDS.values()}
+    within = [each for each in by_name.values() if each.multiplexer]
+    usual = {by_name[each.multiplexer]: each.selectors[0] for each in reversed(within)}
+    for signal in within[:_BRANCHES]:
+        selected, inner = dict(usual), signal
+        while inner.multiplexer:
+            selected[by_name[inner.multiplexer]] = inner.selectors[0]
+            inner = by_name[inner.multiplexer]
+        yield selected
 
 
 def _with_codes(data: bytes, codes: Mapping[Signal, int]) -> bytes:
@@ -198,29 +238,45 @@ def _with_codes(data: bytes, codes: Mapping[Signal, int]) -> bytes:
     for signal, code in codes.items():
         for place, bit in enumerate(layout.bits(signal)):
             number = number & ~(1 << bit) | (code >> place & 1) << bit
-    room = (1 << 8 * len(data)) - 1
-    return (number & room).to_bytes(len(data), "little")
+    return number.to_bytes(len(data), "little")
 
 
 def _needed(kind: type[Message]) -> list[Field]:
-    return [each for each in kind.FIELDS.values() if each.signal.must_be_given]
+    return [
+        each
+        for each in kind.FIELDS.values()
+        if each.signal.must_be_given and each.name not in kind.SELECTED
+    ]
 
 
 def _safe(field: Field) -> int:
     return field.acting.safe if field.acting else 0
 
 
-def _same(field: Field, value: object, raw: float, scaled: float) -> bool:
+def _same(field: Field, value: object, raw: Any, scaled: Any) -> bool:
     """Whether a value of ours says what cantools' raw and physical values say."""
-    if isinstance(value, SignalState) or raw in field.states:
-        return field.states.get(int(raw)) is value or isinstance(value, IntEnum | str)
+    if isinstance(value, SignalState) or (raw in field.states and not isinstance(value, float)):
+        return field.states.get(raw) is value or isinstance(value, IntEnum | str)
     if isinstance(value, str):
-        return ord(value) == raw
-    if isinstance(value, IntEnum):
-        return value.value == raw
-    if isinstance(value, int):
-        return value == raw
-    return isinstance(value, float) and math.isclose(value, scaled, rel_tol=1e-9, abs_tol=1e-12)
+        return bool(ord(value) == raw)
+    if isinstance(value, float) and math.isnan(value):
+        return math.isnan(scaled)
+    return bool(value == scaled)
+
+
+def _cannot_be_sent(field: Field, raw: float, scaled: float) -> bool:
+    """Whether what was received is outside of the range, no number, or one of several."""
+    if isinstance(field, ExactField) and isinstance(scaled, float):
+        return True
+    if isinstance(field, PhysicalField) and not isinstance(field, FloatField):
+        least, most = field.signal.sendable
+        return not least <= raw <= most
+    return not field.minimum <= scaled <= field.maximum
+
+
+def _is_rounded(field: Field) -> bool:
+    """Whether a raw value need not survive the way through its physical value."""
+    return isinstance(field, FloatField) and (field.factor != 1 or bool(field.offset))
 
 
 if __name__ == "__main__":

@@ -166,11 +166,13 @@ def test_counts_of_blocks_add_up() -> None:
     assert total.error == 2
 
 
-def test_signals_that_overlap_cannot_be_decoded_by_cantools_and_are_counted() -> None:
-    message = Message(1, "M", 2, [Signal("A", 0, 9), Signal("B", 8, 8)], strict=False)
-    decoded = Decoder(model_of([message])).decode(block_of([Frame(1, b"\1\2")]))
-    assert decoded.counts.undecodable == {"M": 1}
-    assert decoded.messages == {}
+def test_signals_that_overlap_are_decoded_and_one_outside_is_left_out() -> None:
+    signals = [Signal("A", 0, 9), Signal("B", 8, 8), Signal("C", 12, 5)]
+    message = Message(1, "M", 2, signals, strict=False)
+    decoded = Decoder(model_of([message])).decode(block_of([Frame(1, b"\1\3")]))
+    assert decoded.counts.decoded == {"M": 1}
+    found = {name: each.values.tolist() for name, each in decoded.messages["M"].columns.items()}
+    assert found == {"A": [0x101], "B": [3]}
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,10 @@ from logs.decode_databases import Frame, block_of, model_of
 
 from typedcan.logs.columns import Column, State
 from typedcan.logs.decode import Decoder
+from typedcan.logs.plan import Mode
 from typedcan.model import protocol as model
+from typedcan.wire.codec import Codec
+from typedcan.wire.dynamic import typed_protocol
 
 
 def nested() -> tuple[model.Message, ...]:
@@ -41,20 +44,34 @@ def items(column: Column) -> list[object]:
 
 def test_signals_of_other_branches_are_null() -> None:
     found = Decoder(nested()).decode(block_of(FRAMES)).messages["M"]
-    assert found.rows.tolist() == [0, 1, 2]
+    assert found.rows.tolist() == [0, 1, 2, 3, 4]
     assert {name: items(column) for name, column in found.columns.items()} == {
-        "Page": [0, 1, 2],
-        "Low": [0x11, None, None],
-        "Sub": [None, 7, 3],
-        "Deep": [None, 5, None],
-        "Always": [1, 2, 3],
+        "Page": [0, 1, 2, 9, 1],
+        "Low": [0x11, None, None, None, None],
+        "Sub": [None, 7, 3, None, 5],
+        "Deep": [None, 5, None, None, None],
+        "Always": [1, 2, 3, 4, 5],
     }
 
 
-def test_a_value_that_selects_nothing_leaves_the_frame_out() -> None:
+def test_a_value_that_selects_nothing_and_has_no_label_is_counted() -> None:
     counts = Decoder(nested()).decode(block_of(FRAMES)).counts
-    assert counts.undecodable == {"M": 2}
-    assert counts.decoded == {"M": 3}
+    assert counts.without_branch == {"M": 2}
+    assert counts.decoded == {"M": 5}
+
+
+@pytest.mark.parametrize("mode", [Mode.PHYSICAL, Mode.RAW])
+def test_a_selector_with_a_scaling_is_compared_by_its_raw_value(mode: Mode) -> None:
+    page = Signal("Page", 0, 8, is_multiplexer=True)
+    page.conversion = BaseConversion.factory(scale=0.5, offset=10)
+    low = Signal("Low", 8, 8, multiplexer_signal="Page", multiplexer_ids=[3])
+    database = model_of([Message(1, "M", 2, [page, low])])
+    frames = [Frame(1, bytes([3, 7])), Frame(1, bytes([11, 8]))]
+    found = Decoder(database, mode=mode).decode(block_of(frames)).messages["M"]
+    assert items(found.columns["Low"]) == [7, None]
+    codec = Codec(typed_protocol(model.Protocol(name="x", messages=database)))
+    typed = [codec.decode(1, each.data, extended=False) for each in frames]
+    assert [message.to_raw() for message in typed] == [{"Page": 3, "Low": 7}, {"Page": 11}]
 
 
 @pytest.mark.parametrize("wanted", ["Deep", "Always"])
@@ -71,5 +88,5 @@ def test_an_absent_signal_has_no_state() -> None:
     found = Decoder(nested(), reserved=reserved).decode(block_of(FRAMES)).messages["M"]
     column = found.columns["Low"]
     assert column.state is not None
-    assert column.state.tolist() == [State.INVALID, State.VALUE, State.VALUE]
-    assert items(column) == [None, None, None]
+    assert column.state.tolist() == [State.INVALID, *[State.VALUE] * 4]
+    assert items(column) == [None] * 5

@@ -19,6 +19,7 @@ from cantools.database.can import Database
 from cantools.database.can import Message as CantoolsMessage
 
 from dbcspec.emit.foreign import dbc_faults, foreign_artifacts
+from dbcspec.trial import try_package
 from typedcan.databases.dbc import read_dbc
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Message, Protocol, Signal
@@ -202,28 +203,40 @@ SIGNAL = Signal(name="Sig", start=0, length=8, minimum=Decimal(0), maximum=Decim
 MESSAGE = Message(name="Msg", frame_id=1, length=8, sender="", signals=(SIGNAL,))
 
 
+def test_what_no_dbc_can_say_is_refused() -> None:
+    protocol = Protocol(name="x", messages=(dataclasses.replace(MESSAGE, name="1st"),))
+    assert dbc_faults(protocol) == [
+        "'1st' is no DBC name: letters, digits and underscores, no digit first"
+    ]
+    with pytest.raises(ReadError, match="'1st' is no DBC name"):
+        foreign_artifacts(protocol, "x")
+
+
 def selected_by(name: str) -> Message:
     signal = dataclasses.replace(SIGNAL, multiplexer=name, selectors=(1,))
     return dataclasses.replace(MESSAGE, signals=(signal,))
 
 
 @pytest.mark.parametrize(
-    ("messages", "text"),
+    ("messages", "names"),
     [
-        ((dataclasses.replace(MESSAGE, name="1st"),), "'1st' is no DBC name"),
-        ((MESSAGE, dataclasses.replace(MESSAGE, frame_id=2)), "message Msg is there 2 times"),
-        ((MESSAGE, dataclasses.replace(MESSAGE, name="Other")), "identifier 0x1"),
-        ((dataclasses.replace(MESSAGE, signals=(SIGNAL, SIGNAL)),), "Msg: signal Sig is there 2"),
-        ((selected_by("Sig"),), "Msg: Sig selects itself"),
-        ((selected_by("None"),), "Msg: Sig is selected by no signal of the message"),
-        ((dataclasses.replace(MESSAGE, english="C:\\"),), "Msg: a text of it ends in a backslash"),
+        ((MESSAGE, dataclasses.replace(MESSAGE, frame_id=2)), {"Msg": ["Sig"], "Msg_2": ["Sig"]}),
+        ((dataclasses.replace(MESSAGE, name="Old"), MESSAGE), {"Msg": ["Sig"]}),
+        ((dataclasses.replace(MESSAGE, signals=(SIGNAL, SIGNAL)),), {"Msg": ["Sig", "Sig_2"]}),
+        ((selected_by("Sig"),), {"Msg": ["Sig"]}),
+        ((selected_by("None"),), {"Msg": ["Sig"]}),
+        ((dataclasses.replace(MESSAGE, english="C:\\"),), {"Msg": ["Sig"]}),
     ],
 )
-def test_what_no_dbc_can_say_is_refused(messages: tuple[Message, ...], text: str) -> None:
-    protocol = Protocol(name="x", messages=messages)
-    assert any(fault.startswith(text) for fault in dbc_faults(protocol))
-    with pytest.raises(ReadError):
-        foreign_artifacts(protocol, "x")
+def test_what_is_odd_is_no_reason_to_refuse_the_rest(
+    messages: tuple[Message, ...], names: dict[str, list[str]], tmp_path: Path
+) -> None:
+    made = foreign_artifacts(Protocol(name="x", messages=messages), "odd_x")
+    (tmp_path / "odd_x.dbc").write_bytes(made["odd_x.dbc"])
+    theirs = cantools.database.load_file(tmp_path / "odd_x.dbc", strict=False)
+    assert isinstance(theirs, Database)
+    assert {each.name: [s.name for s in each.signals] for each in theirs.messages} == names
+    try_package(made, "odd_x", "odd_x.dbc")
 
 
 def test_a_sound_protocol_has_no_faults(protocol: Protocol) -> None:

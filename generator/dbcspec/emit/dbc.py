@@ -103,6 +103,8 @@ def _limits(signal: Signal) -> str:
 
 
 def _quote(text: str) -> str:
+    # A backslash before the closing quote would quote the quote.
+    text = f"{text} " if text.endswith("\\") else text
     return '"' + text.replace('"', '\\"') + '"'
 
 

@@ -18,6 +18,7 @@ from typedcan.logs.plan import Mode, plan_of
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.scaling import raw_dtype, scaling_of
 from typedcan.logs.selection import Selection
+from typedcan.model.naming import unused
 from typedcan.model.protocol import Message
 
 Metadata = dict[bytes | str, bytes | str]
@@ -75,8 +76,17 @@ class MessageTable:
         fields = [TIMESTAMP, CHANNEL, *(ADDRESSES if plan.by_pgn else ())]
         self.metadata = {info.name: _metadata(protocol, message, info) for info in self.signals}
         """By name of the signal, what is said of its column."""
+        # A signal that is called like a column that is there anyway gets another column.
+        fixed = {part.name for part in fields}
+        taken = fixed | {info.name for info in self.signals}
+        self.renamed: dict[str, str] = {}
+        """Signals, as ``message.signal``, that have a column of another name, and that name."""
         for info in self.signals:
-            fields += self.fields(info, info.name)
+            name = unused(info.name, taken) if info.name in fixed else info.name
+            if name != info.name:
+                taken.add(name)
+                self.renamed[f"{message.name}.{info.name}"] = name
+            fields += self.fields(info, name)
         self.schema = pa.schema(fields, metadata_of(protocol, {"message": message.name}))
 
     def fields(self, info: SignalInfo, name: str) -> list[pa.Field[Any]]:

@@ -152,7 +152,10 @@ class Checks:
 
     def _good(self, message: Message, columns: MessageColumns) -> NDArray[np.bool_] | None:
         """The frames that are not refused; None: all."""
-        good = columns.block.length[columns.rows] == message.length
+        lengths = columns.block.length[columns.rows]
+        good = lengths == message.length
+        if message.frame_length != message.length:  # of a CAN FD frame that is filled up
+            good |= lengths == message.frame_length
         wrong = len(good) - int(np.count_nonzero(good))
         if wrong:
             self.faults.length[message.name] += wrong

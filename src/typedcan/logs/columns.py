@@ -137,7 +137,7 @@ def addresses_of(
 
 @dataclass(slots=True)
 class Counts:
-    """What became of the frames; every frame is counted once, beside in ``frames``.
+    """What became of the frames; each is counted once beside ``frames`` and ``without_branch``.
 
     Parameters
     ----------
@@ -153,9 +153,9 @@ class Counts:
         Frames of messages that were not asked for.
     too_short
         By name of the message: fewer bytes than it has.
-    undecodable
-        By name of the message: a multiplexer has a value that selects nothing, or the database
-        gives the message, or the branch, no layout that can be decoded.
+    without_branch
+        By name of the message, decoded frames with a multiplexer whose value selects nothing and
+        has no label: signals of its branches are not there.
     """
 
     frames: int = 0
@@ -165,7 +165,7 @@ class Counts:
     unknown: Counter[tuple[int, bool]] = field(default_factory=Counter[tuple[int, bool]])
     unwanted: int = 0
     too_short: Counter[str] = field(default_factory=Counter[str])
-    undecodable: Counter[str] = field(default_factory=Counter[str])
+    without_branch: Counter[str] = field(default_factory=Counter[str])
 
     def add(self, other: Counts) -> None:
         """Add the counts of another block."""
@@ -176,7 +176,7 @@ class Counts:
         self.decoded.update(other.decoded)
         self.unknown.update(other.unknown)
         self.too_short.update(other.too_short)
-        self.undecodable.update(other.undecodable)
+        self.without_branch.update(other.without_branch)
 
 
 @dataclass(slots=True)

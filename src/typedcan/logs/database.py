@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import logging
 from functools import cache
 from pathlib import Path
 
 from typedcan.databases.dbc import read_database
 from typedcan.logs.protocol import Protocol, read, same
 from typedcan.model.errors import ReadError, TypedcanError
+from typedcan.model.soundness import remark
 from typedcan.shell.printing import printable
+
+_LOG = logging.getLogger(__name__)
 
 
 class DbcError(TypedcanError):
@@ -35,5 +39,7 @@ def protocol_of(database: Path | None, own: Protocol | None) -> Protocol:
         model = read_database(database)
     except ReadError as error:
         raise DbcError(printable(str(error))) from None
+    if odd := remark(model):
+        _LOG.warning(odd)
     found = read(model, printable(database.stem))  # a file's name may hold bytes that are no text
     return same(found, own) if own and found.digest and found.digest == own.digest else found

@@ -106,37 +106,32 @@ class Decoder:
                     own = _long_enough(plan, block, own, counts)
                 if not len(own):
                     continue
-                found = self._message(place, plan, block, own)
-                if len(found) < len(own):
-                    counts.undecodable[plan.name] += len(own) - len(found)
-                if len(found):
-                    counts.decoded[plan.name] += len(found)
-                    messages[plan.name] = found
+                messages[plan.name] = self._message(place, plan, block, own, counts)
         return DecodedBlock(messages, counts)
 
     def _message(
-        self, place: int, plan: MessagePlan, block: FrameBlock, rows: NDArray[np.int64]
+        self,
+        place: int,
+        plan: MessagePlan,
+        block: FrameBlock,
+        rows: NDArray[np.int64],
+        counts: Counts,
     ) -> MessageColumns:
-        """Decode the frames that cantools would decode, all of one message."""
-        found = MessageColumns(
-            plan.name, plan.frame_id, plan.is_extended, block, rows[:0], {}, plan.by_pgn
+        """Decode the frames of one message."""
+        payload = self._payload(plan, block, rows)
+        decoded = self._values(place, plan, payload, len(rows))
+        selecting = {name: decoded[raw][0] for name, raw in plan.selecting.items()}
+        presence = Presence(plan.multiplexing, selecting)
+        columns = {
+            info.name: _column(info, decoded[info.name], presence.of(info.name))
+            for info in plan.columns
+        }
+        counts.decoded[plan.name] += len(rows)
+        if lost := presence.without_branch():
+            counts.without_branch[plan.name] += lost
+        return MessageColumns(
+            plan.name, plan.frame_id, plan.is_extended, block, rows, columns, plan.by_pgn
         )
-        sound: NDArray[np.bool_] | None = None
-        while plan.multiplexing.decodable and len(rows):
-            payload = self._payload(plan, block, rows)
-            decoded = self._values(place, plan, payload, len(rows))
-            selecting = {name: decoded[name][0] for name in plan.multiplexing.known}
-            presence = Presence(plan.multiplexing, selecting)
-            sound = presence.decodable()
-            if sound is None:
-                found.rows = rows
-                found.columns = {
-                    info.name: _column(info, decoded[info.name], presence.of(info.name))
-                    for info in plan.columns
-                }
-                break
-            rows = rows[sound]
-        return found
 
     def _payload(
         self, plan: MessagePlan, block: FrameBlock, rows: NDArray[np.int64]
@@ -169,7 +164,7 @@ class Decoder:
             )
             decoded.update(zip(stack.names, rows, strict=True))
         for wide in plan.wide:
-            decoded[wide.signal.name] = wide_values(wide, payload[:frames])
+            decoded[wide.name] = wide_values(wide, payload[:frames])
         return decoded
 
 

@@ -1,8 +1,8 @@
-"""Multiplexed messages: which branches the database gives, and which of them each frame has."""
+"""Multiplexed messages: which branches there are, and which of them each frame has."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.model.layout import first_bit
-from typedcan.model.protocol import ByteOrder, Message, Signal
+from typedcan.model.protocol import Signal
 
 _FEW = 4
 """Up to so many codes, a comparison for each is faster than a search."""
@@ -19,7 +18,7 @@ _FEW = 4
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """Present where the multiplexer, itself present, has one of these values."""
+    """Present where the multiplexer, itself present, has one of these raw values."""
 
     multiplexer: str
     values: frozenset[int]
@@ -31,69 +30,30 @@ class Multiplexing:
 
     Parameters
     ----------
-    decodable
-        False where the signals that are always there overlap or exceed the message; cantools
-        then refuses every frame.
     branches
         By name of the signal, multiplexers before what they select; None: always there.
     known
-        By name of the multiplexer, all its values that select a branch.
+        By name of the multiplexer, all its raw values that mean something: those with a branch,
+        and those with a label.
     """
 
-    decodable: bool
     branches: Mapping[str, Branch | None]
     known: Mapping[str, Branch]
 
 
-def multiplexing_of(message: Message) -> Multiplexing:
-    """Follow the multiplexers from the signals that are always there."""
-    children: dict[str, list[Signal]] = {}
-    for signal in message.signals:
-        children.setdefault(signal.multiplexer, []).append(signal)
-    roots = children.get("", [])
+def multiplexing_of(signals: Sequence[Signal]) -> Multiplexing:
+    """The branches of a message that has these signals."""
+    by_name = {signal.name: signal for signal in signals}
     branches: dict[str, Branch | None] = {}
-    known: dict[str, Branch] = {}
-    pending: list[tuple[Signal, Branch | None]] = [(signal, None) for signal in roots]
-    for signal, branch in pending:
-        branches[signal.name] = branch
-        below = children.get(signal.name, [])
-        values = _values(signal, below)
-        if values:
-            sound = frozenset(value for value in values if _fits(_chosen(below, value), message))
-            known[signal.name] = Branch(signal.name, sound)
-            for child in below:
-                own = sound.intersection(child.selectors)
-                if own:
-                    pending.append((child, Branch(signal.name, own)))
-    return Multiplexing(_fits(roots, message), branches, known)
-
-
-def _values(signal: Signal, below: Iterable[Signal]) -> set[int]:
-    """What selects a branch; a labelled value does so even where no signal is in the branch."""
-    if not signal.is_selector:
-        return set()
-    values = {value for child in below for value in child.selectors}
-    codes = signal.value_table.codes if signal.value_table else ()
-    return values | {code.value for code in codes}
-
-
-def _chosen(signals: Iterable[Signal], value: int) -> list[Signal]:
-    return [signal for signal in signals if value in signal.selectors]
-
-
-def _fits(signals: Sequence[Signal], message: Message) -> bool:
-    """Whether cantools can unpack signals together: it reads them one behind the other."""
-    big = sorted((s for s in signals if s.byte_order is ByteOrder.MOTOROLA), key=first_bit)
-    little = [s for s in signals if s.byte_order is ByteOrder.INTEL]
-    for ordered in (big, little):
-        end = 0
-        for signal in ordered:
-            if first_bit(signal) < end:
-                return False
-            end = first_bit(signal) + signal.length
-        if end > 8 * message.length:
-            return False
-    return True
+    values: dict[str, set[int]] = {}
+    for signal in signals:
+        above = by_name.get(signal.multiplexer)
+        branches[signal.name] = Branch(above.name, frozenset(signal.selectors)) if above else None
+        if above:
+            labelled = above.value_table.labels() if above.value_table else ()
+            values.setdefault(above.name, {*labelled}).update(signal.selectors)
+    known = {name: Branch(name, frozenset(found)) for name, found in values.items()}
+    return Multiplexing(branches, known)
 
 
 class Presence:
@@ -104,7 +64,7 @@ class Presence:
     plan
         The branches of the message.
     values
-        By name of the multiplexer, what cantools compares: the values of its column.
+        By name of the multiplexer, its raw values.
     """
 
     def __init__(self, plan: Multiplexing, values: Mapping[str, NDArray[Any]]) -> None:
@@ -117,16 +77,16 @@ class Presence:
         branch = self._plan.branches[signal]
         return None if branch is None else self._mask(branch)
 
-    def decodable(self) -> NDArray[np.bool_] | None:
-        """Where every multiplexer that is there selects a branch; None: everywhere."""
-        sound: NDArray[np.bool_] | None = None
+    def without_branch(self) -> int:
+        """How many frames have a multiplexer whose value means nothing."""
+        lost: NDArray[np.bool_] | None = None
         for name, branch in self._plan.known.items():
-            found = _one_of(self._values[name], branch.values)
+            unknown = ~_one_of(self._values[name], branch.values)
             there = self.of(name)
             if there is not None:
-                found |= ~there
-            sound = found if sound is None else sound & found
-        return None if sound is None or sound.all() else sound
+                unknown &= there
+            lost = unknown if lost is None else lost | unknown
+        return 0 if lost is None else int(np.count_nonzero(lost))
 
     def _mask(self, branch: Branch) -> NDArray[np.bool_]:
         mask = self._masks.get(branch)
@@ -140,12 +100,9 @@ class Presence:
 
 
 def _one_of(values: NDArray[Any], wanted: frozenset[int]) -> NDArray[np.bool_]:
-    """Where a value, cut to a whole number, is one of those."""
+    """Where a value is one of those."""
     if values.dtype == object:
-        found = [int(value) in wanted for value in values]
-        return np.array(found, np.bool_)
-    if values.dtype.kind == "f":
-        values = np.trunc(values)
+        return np.array([value in wanted for value in values], np.bool_)
     codes = _codes(wanted, values.dtype)
     if len(codes) > _FEW:
         return np.isin(values, codes)

@@ -144,6 +144,9 @@ def read_rows(
     checks = Checks(protocol, keep_faulty=options.keep_faulty, algorithms=options.algorithms)
     shapes = shapes_of(protocol, options)
     summary = Summary(logs=1, hidden=protocol.hidden, in_several_frames=protocol.in_several_frames)
+    if options.layout is Layout.MESSAGES:
+        for table in message_tables(protocol, wanted, options.mode).values():
+            summary.renamed.update(table.renamed)
     span = _Span()
     with open_log(path, _BLOCK) as log:
         for block in within(_watched(log, watch), options.start, options.end):

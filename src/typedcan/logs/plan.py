@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from typedcan.logs.columns import SignalInfo, State
@@ -13,6 +13,7 @@ from typedcan.logs.scaling import Scaling, raw_dtype, scaling_of
 from typedcan.logs.stacks import ByteLoad, Part, Stack, stacks_of
 from typedcan.logs.wide import Wide
 from typedcan.model.errors import TypedcanError
+from typedcan.model.layout import readable
 from typedcan.model.protocol import Message, Signal
 from typedcan.model.scaling import python_number, to_physical
 
@@ -59,6 +60,8 @@ class MessagePlan:
         What decodes them, and the multiplexers beside.
     multiplexing
         Which branches there are.
+    selecting
+        By name of the multiplexer, what its raw values are called among what is decoded.
     """
 
     name: str
@@ -70,6 +73,7 @@ class MessagePlan:
     stacks: tuple[Stack, ...]
     wide: tuple[Wide, ...]
     multiplexing: Multiplexing
+    selecting: Mapping[str, str]
     by_pgn: bool
 
 
@@ -97,22 +101,26 @@ def plan_of(
     ReservedCodeError
         A reserved code is none that the signal can have.
     """
-    names = [signal.name for signal in message.signals]
+    signals = readable(message)
+    names = [signal.name for signal in signals]
     for name in wanted or ():
         if name not in names:
             raise SelectionError(f"{message.name} has no signal {name!r}; it has {names}")
-    multiplexing = multiplexing_of(message)
-    if not multiplexing.decodable:
-        multiplexing = Multiplexing(decodable=False, branches={}, known={})
+    selectors = {signal.multiplexer for signal in signals}
+    codes = {signal.name: _codes(message, signal, reserved or {}) for signal in signals}
+    infos = {signal.name: _info(signal, mode, codes[signal.name]) for signal in signals}
     columns: list[SignalInfo] = []
     parts: list[Part | Wide] = []
+    selecting: dict[str, str] = {}
     for signal in message.signals:
-        asked = wanted is None or signal.name in wanted
-        if signal.name in multiplexing.branches and (asked or signal.name in multiplexing.known):
-            codes = _codes(message, signal, reserved or {})
-            info = _info(signal, mode, codes)
-            columns += [info] if asked else []
-            parts.append(_part(message, signal, info, codes if info.scaled else {}))
+        info = infos.get(signal.name)
+        if info and (wanted is None or signal.name in wanted):
+            columns.append(info)
+            parts.append(_part(message, signal, info, codes[signal.name] if info.scaled else {}))
+        if info and signal.name in selectors:
+            selecting[signal.name] = f"{signal.name} (raw)"
+            raw = replace(info, name=selecting[signal.name], scaled=False)
+            parts.append(_part(message, signal, raw, {}))
     loads, stacks = stacks_of(part for part in parts if isinstance(part, Part))
     wide = tuple(part for part in parts if isinstance(part, Wide))
     return MessagePlan(
@@ -124,7 +132,8 @@ def plan_of(
         loads,
         stacks,
         wide,
-        multiplexing,
+        multiplexing_of(signals),
+        selecting,
         message.by_pgn,
     )
 
@@ -165,6 +174,6 @@ def _part(
     lane = lane_of(signal, SHORT if message.length <= SHORT else LONG)
     if lane is None or not scaling.vector or raw_dtype(signal).kind == "O":
         factor_and_offset = to_physical(signal) if info.scaled else None
-        return Wide(signal, message.length, scaling.dtype, factor_and_offset, reserved)
+        return Wide(info.name, signal, message.length, scaling.dtype, factor_and_offset, reserved)
     signed = signal.signed and not signal.is_float
-    return Part(signal.name, lane, signed, raw_dtype(signal), scaling, reserved)
+    return Part(info.name, lane, signed, raw_dtype(signal), scaling, reserved)

@@ -10,7 +10,8 @@ from typedcan.logs.plan import Reserved
 from typedcan.logs.transfers.readings import Readings, readings_of, values_of
 from typedcan.model import protocol as model
 from typedcan.model.j1939 import needs_several_frames
-from typedcan.model.layout import in_bit_order
+from typedcan.model.layout import readable
+from typedcan.model.soundness import with_unique_names
 from typedcan.model.transfers.parts import Parts
 
 
@@ -89,7 +90,7 @@ def read(protocol: model.Protocol, name: str) -> Protocol:
     return Protocol(
         name=name,
         digest=protocol.made_from,
-        messages=[_in_bit_order(message) for message in protocol.messages],
+        messages=[_readable(message) for message in with_unique_names(protocol).messages],
         reserved={},
         references={},
         periods={each.name: each.period / 1000 for each in protocol.messages if each.period},
@@ -105,8 +106,8 @@ def same(database: Protocol, own: Protocol) -> Protocol:
     return replace(own, messages=database.messages)
 
 
-def _in_bit_order(message: model.Message) -> model.Message:
-    return replace(message, signals=tuple(in_bit_order(message.signals)))
+def _readable(message: model.Message) -> model.Message:
+    return replace(message, signals=tuple(readable(message)))
 
 
 def _reserved(protocol: model.Protocol) -> Reserved:

@@ -71,7 +71,8 @@ class Raster(Shape):
     frame. At each point a signal has the value of the last frame at or before it; null before the
     first frame, and where the last one is more than `typedcan.logs.checks.PERIODS` periods back.
     Messages without a period keep their value. A column is named like its signal; where two
-    messages of the protocol have a signal of one name, ``message.signal``.
+    messages of the protocol have a signal of one name, or it is that of the times,
+    ``message.signal``.
 
     Parameters
     ----------
@@ -98,7 +99,8 @@ class Raster(Shape):
         fields: list[pa.Field[Any]] = [TIMESTAMP]
         for table in tables.values():
             for info in table.signals:
-                name = info.name if counts[info.name] == 1 else f"{table.name}.{info.name}"
+                alone = counts[info.name] == 1 and info.name != TIMESTAMP.name
+                name = info.name if alone else f"{table.name}.{info.name}"
                 fields += table.fields(info, name)
         self._schema = pa.schema(fields, metadata_of(protocol, {"raster_s": str(float(step))}))
 

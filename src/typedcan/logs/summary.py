@@ -40,6 +40,8 @@ class Summary:
         Messages that no frame is, each with the one that has the same identifier.
     in_several_frames
         Messages that no single frame carries.
+    renamed
+        Signals whose column has another name, ``message.signal``, and that name.
     """
 
     logs: int = 0
@@ -51,6 +53,7 @@ class Summary:
     rows: Counter[str] = field(default_factory=Counter[str])
     hidden: dict[str, str] = field(default_factory=dict[str, str])
     in_several_frames: tuple[str, ...] = ()
+    renamed: dict[str, str] = field(default_factory=dict[str, str])
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -63,6 +66,7 @@ class Summary:
         self.rows.update(other.rows)
         self.hidden |= other.hidden
         self.in_several_frames = other.in_several_frames
+        self.renamed |= other.renamed
 
     def lines(self) -> Iterator[str]:
         """For people."""
@@ -78,7 +82,7 @@ class Summary:
             ("wrong length", faults.length),
             ("wrong checksum", faults.checksum),
             ("wrong counter", faults.counter),
-            ("undecodable", counts.undecodable),
+            ("selector without a branch", counts.without_branch),
         ):
             if found:
                 yield f"{title}: {_listed(found)}"
@@ -86,6 +90,8 @@ class Summary:
             yield f"{name} has the identifier of {other}: its frames count as those of {other}"
         if self.in_several_frames:
             yield f"in several frames, not decoded: {_names(self.in_several_frames)}"
+        for name, column in self.renamed.items():
+            yield f"{name} is in the column {column}"
         for name, gaps in sorted(faults.gaps.items()):
             yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
         for damage in self.damage:
@@ -104,7 +110,7 @@ class Summary:
             "unwanted": counts.unwanted,
             "remote": counts.remote,
             "error": counts.error,
-            "undecodable": dict(counts.undecodable),
+            "without_branch": dict(counts.without_branch),
             "wrong_length": dict(faults.length),
             "wrong_checksum": dict(faults.checksum),
             "wrong_counter": dict(faults.counter),
@@ -124,6 +130,7 @@ class Summary:
             "rows": dict(self.rows),
             "hidden": self.hidden,
             "in_several_frames": list(self.in_several_frames),
+            "renamed": self.renamed,
         }
 
 

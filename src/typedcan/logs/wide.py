@@ -22,6 +22,8 @@ class Wide:
 
     Parameters
     ----------
+    name
+        What its values are called.
     signal
         As in the database.
     length
@@ -34,6 +36,7 @@ class Wide:
         Raw codes that are no value.
     """
 
+    name: str
     signal: Signal
     length: int
     dtype: np.dtype[Any]
