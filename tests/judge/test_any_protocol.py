@@ -137,6 +137,7 @@ def test_what_keeps_to_the_second_protocol_breaks_no_rule(second: Protocol) -> N
     [
         ("period-short", lambda frames: [*frames, frame(4.03, 0x201, bytes(8))]),
         ("period-gap", lambda frames: without(frames, 0x201, 4.0, 4.15)),
+        ("node-awake", lambda frames: without(frames, 0x201, 4.0, 14.0)),
         ("message-missing", lambda frames: without(frames, 0x102, 0.0, 20.0)),
         (
             "counter-sequence",

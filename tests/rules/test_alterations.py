@@ -9,8 +9,8 @@ from rules.recorded import recorded
 
 from swapcan.conform import RULES
 
-OVER_LONGER_TIMES = {"energy-follows-power", "soc-follows-current"}
-"""Rules that judge minutes only; their case folders show what they find."""
+OVER_LONGER_TIMES = {"energy-follows-power", "node-awake", "soc-follows-current"}
+"""Rules that judge longer times only; their case folders show what they find."""
 
 
 def test_nothing_is_found_in_what_is_not_altered() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import (
@@ -17,7 +18,7 @@ from swapcan.messages import (
     B2V_Ucell,
 )
 from swapcan.rules import charging, cooling, notices, pack, texts, voltage
-from swapcan.rules.voltage import node_silence, relays_before_command, start_state
+from swapcan.rules.voltage import node_awake, node_silence, relays_before_command, start_state
 from swapcan.rules.wording import worded
 from typedcan.judge.rule import Rule
 from typedcan.judge.rules import rules_for
@@ -51,22 +52,32 @@ SCOPE = Scope(
             *_names(V2B_CMD, *(name for name in V2B_CMD.FIELDS if name not in _COMMANDS)),
         }
     ),
+    # It sleeps after high voltage is off (5.2.1.4).
+    may_sleep=frozenset({node_awake.PACK}),
     transfers={"cell_voltages": "cells", "probe_temperatures": "probes"},
 )
 """What the tables leave open."""
 
+
+def _of_this_standard(rule: Rule) -> Rule:
+    return worded(replace(rule, watch=_WATCHED_HERE.get(rule.id, rule.watch)))
+
+
 _BEFORE: Mapping[str, tuple[Rule, ...]] = {
-    "event-repeated": (node_silence.RULE,),
+    "node-awake": (node_silence.RULE,),
     "bus-load": (start_state.RULE, relays_before_command.RULE),
     "cells-complete": texts.RULES,
 }
 """Rules of this standard that are listed among the others, by the one that comes after them."""
 
+_WATCHED_HERE = {"node-awake": node_awake.NodeAwakeHere}
+"""What watches for a rule where this standard knows more than its model."""
+
 RULES: tuple[Rule, ...] = (
     *(
         each
         for rule in rules_for(PROTOCOL, SCOPE)
-        for each in (*_BEFORE.get(rule.id, ()), worded(rule))
+        for each in (*_BEFORE.get(rule.id, ()), _of_this_standard(rule))
     ),
     *pack.RULES,
     *voltage.RULES,

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from typedcan.judge.rule import Rule
+from typedcan.judge.rule import Rule, Severity
 from typedcan.report.language import Text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wording:
-    """What is said of a rule; without a title, a purpose or the text of a tolerance its own."""
+    """What is said of a rule; what is not given is its own."""
 
     clause: str
+    severity: Severity | None = None
     title: Text | None = None
     purpose: Text | None = None
     tolerances: Mapping[str, Text] = field(default_factory=dict[str, Text])
@@ -25,6 +26,7 @@ def worded(rule: Rule) -> Rule:
     return replace(
         rule,
         clause=words.clause,
+        severity=rule.severity if words.severity is None else words.severity,
         title=words.title or rule.title,
         purpose=words.purpose or rule.purpose,
         tolerances=tuple(
@@ -54,10 +56,12 @@ WORDINGS: Mapping[str, Wording] = {
             "Receivers compare whole identifiers: from another source address the message is not "
             "seen. V2B_RQData comes from 0xEF, BMS_TMS_0 from 0xF4, unlike the rest of their "
             "senders' messages. A frame counts as a message's where its sender has that address "
-            "in others, or where the log lacks the message; else it is taken for another node's.",
+            "in others, or where the log lacks the message; else it is taken for another node's, "
+            "as is a proprietary PGN from an address that no node has.",
             "接收方按完整标识符过滤:源地址不同则收不到该报文。"
             "V2B_RQData 的源地址为 0xEF,BMS_TMS_0 为 0xF4,与其发送节点的其他报文不同。"
-            "该源地址属于发送节点,或日志中缺少该报文时,判为该报文的错误;否则视为其他节点的报文。",
+            "该源地址属于发送节点,或日志中缺少该报文时,判为该报文的错误;否则视为其他节点的报文。"
+            "专用 PGN 的源地址不属于任何节点时,亦视为其他节点的报文。",
         ),
         clause="A.1",
     ),
@@ -113,6 +117,10 @@ WORDINGS: Mapping[str, Wording] = {
     ),
     "period-short": Wording(
         clause="A.1",
+    ),
+    "node-awake": Wording(
+        clause="A.1, 5.2.1.4",
+        severity=Severity.MUST,
     ),
     "event-repeated": Wording(
         clause="A.1",

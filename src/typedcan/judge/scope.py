@@ -20,6 +20,8 @@ class Scope:
         Signals for which the standard leaves nothing but a reserved code at times.
     without_value
         Signals that may have no value for as long as they like.
+    may_sleep
+        Nodes that may be silent while others send.
     transfers
         What transfers are called in the ids of their rules, by their names; one without is called
         as it is.
@@ -29,4 +31,5 @@ class Scope:
     from_one: tuple[str, ...] = ()
     reserved_used: frozenset[str] = frozenset()
     without_value: frozenset[str] = frozenset()
+    may_sleep: frozenset[str] = frozenset()
     transfers: Mapping[str, str] = field(default_factory=dict[str, str])

@@ -49,6 +49,17 @@ class KnownSilence(NamedTuple):
     known: Known
     unplugged: bool
 
+    @property
+    def told(self) -> bool:
+        """Whether a node fell silent under high voltage that may not: what `node-silence` tells.
+
+        A charger may when it gives no current and the pack does not charge, and when its gun is
+        off: then it cannot send any more.
+        """
+        if self.silence.node == "CHG" and (self.unplugged or not self.known.charging):
+            return False
+        return self.known.high_voltage_on
+
 
 class Silences:
     """Follows the silences of one log."""

@@ -19,11 +19,7 @@ _SILENT = Text(
 
 
 class NodeSilence(Watcher):
-    """Looks for silences that begin while high voltage is on.
-
-    A charger may fall silent when it gives no current and the pack does not charge, and when the
-    BMU tells that its gun is off: then it cannot send any more.
-    """
+    """Looks for silences that begin while high voltage is on."""
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
@@ -47,11 +43,9 @@ class NodeSilence(Watcher):
                 self.findings.examine(node)
 
     def _judge(self, found: KnownSilence) -> None:
-        silence, known, unplugged = found
-        if not known.high_voltage_on:
+        if not found.told:
             return
-        if silence.node == "CHG" and (unplugged or not known.charging):
-            return
+        silence = found.silence
         step = silence.end - silence.start
         self.findings.add(
             Occurrence(

@@ -23,7 +23,7 @@ def rules_for(protocol: Protocol, scope: Scope = _ALL) -> tuple[Rule, ...]:
     every = (
         *frames.rules(protocol),
         *protection.rules(protocol),
-        *timing.rules(protocol),
+        *timing.rules(protocol, scope),
         *content.rules(protocol, scope),
         *requests.rules(protocol),
         *transfers.rules(protocol, scope),

@@ -18,6 +18,9 @@ ADDRESS_BITS = 8
 PRIORITY_SHIFT = 26
 """Below the priority, the highest three bits of an identifier."""
 
+_PROPRIETARY = (0xEF, 0xFF)
+"""PDU formats that J1939-21 leaves to everybody: what they carry only the sender knows."""
+
 _WITHOUT_PRIORITY = (1 << PRIORITY_SHIFT) - 1
 _PRIORITY_MASK = np.uint32(EXTENDED | _WITHOUT_PRIORITY)
 
@@ -36,6 +39,10 @@ class Identifiers:
             node: {each.FRAME_ID & 0xFF for each in protocol.messages if node == each.SENDER}
             for node in nodes_of(protocol)
         }
+        self._taken = set().union(
+            *self._addresses.values(),
+            *({each.address, *each.other_addresses} for each in protocol.model.nodes),
+        )
 
     def has_other_priority(self, keys: NDArray[np.uint32]) -> NDArray[np.bool_]:
         """Which are those of a message but for their priority."""
@@ -58,9 +65,9 @@ class Identifiers:
     def meant(self, frame_id: int, seen: Collection[type[Message]]) -> type[Message] | None:
         """Which message a frame with another source address was meant to be, None for none.
 
-        A source address that a node has in its other messages gives that node away. With any
-        other the frame is one that the log lacks; where it lacks none, others on the bus sent it,
-        to whom group extensions such as those of 0xFF belong as well.
+        A source address that a node has in its other messages gives that node away. A proprietary
+        PGN from an address that no node has is somebody else's: it is theirs as well. With any
+        other the frame is one that the log lacks; where it lacks none, others on the bus sent it.
 
         Parameters
         ----------
@@ -71,6 +78,8 @@ class Identifiers:
         for message in candidates:
             if frame_id & 0xFF in self._addresses[message.SENDER]:
                 return message
+        if frame_id >> 16 & 0xFF in _PROPRIETARY and frame_id & 0xFF not in self._taken:
+            return None
         return next((message for message in candidates if message not in seen), None)
 
 

@@ -80,10 +80,11 @@ def rule(protocol: Protocol) -> Rule:
         purpose=Text(
             "Receivers compare whole identifiers: from another source address the message is not "
             "seen. A frame counts as a message's where its sender has that address in others, or "
-            "where the log lacks the message; else it is taken for another node's.",
+            "where the log lacks the message; else it is taken for another node's, as is a "
+            "proprietary PGN from an address that no node has.",
             "接收方按完整标识符过滤:源地址不同则收不到该报文。"
             "该源地址属于发送节点,或日志中缺少该报文时,判为该报文的错误;"
-            "否则视为其他节点的报文。",
+            "否则视为其他节点的报文。专用 PGN 的源地址不属于任何节点时,亦视为其他节点的报文。",
         ),
         severity=Severity.MUST,
         judges=nodes_of(protocol),
