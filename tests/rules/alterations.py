@@ -15,6 +15,7 @@ from rules.altered import (
     doubled,
     lost,
     lost_between,
+    on_channel,
     paced,
     signals,
     signals_where,
@@ -191,6 +192,7 @@ _add(
 )
 
 # Charging
+_add("charger-own-bus", on_channel("C2B_ACStatus", "vehicle"))
 _add("charge-line-connected", signals("B2V_ST1", 18.0, B2V_ST1_ChgLine=0))
 _add("charge-current-sign", signals("B2V_ST2", 17.0, 20.0, B2V_ST2_Current=10800))
 _add("charger-voltage-limit", signals("C2B_ACStatus", 17.0, 21.0, C2B_N_VoltageOutput=3000))

@@ -187,6 +187,22 @@ def paced(name: str, factor: float, *, uneven: float = 0.0) -> Alteration:
     return alter
 
 
+def on_channel(name: str, channel: str) -> Alteration:
+    """All frames of a message on another channel."""
+    number = _message(name).frame_id
+
+    def alter(frames: Frames) -> Frames:
+        moved = []
+        for frame in frames:
+            other = copy(frame)
+            if frame.arbitration_id == number:
+                other.channel = channel
+            moved.append(other)
+        return tuple(moved)
+
+    return alter
+
+
 def doubled(name: str, later: float) -> Alteration:
     """A copy of each frame of a message, so many seconds after it."""
     number = _message(name).frame_id

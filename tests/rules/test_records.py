@@ -24,6 +24,8 @@ RECORDS = Path(__file__).with_name("records")
         ),
         # The swap controller is silent for ten seconds while others are awake, high voltage off.
         ("bsu_silent_hv_off", NODES, Verdict.VIOLATES, {"node-awake"}),
+        # The charger is on the powertrain's channel.
+        ("charger_on_powertrain_bus", NODES, Verdict.VIOLATES, {"charger-own-bus"}),
     ],
 )
 def test_what_is_found_in_a_record(

@@ -22,6 +22,8 @@ class Wording:
 
 def worded(rule: Rule) -> Rule:
     """A rule in the words of this standard; raises `KeyError` where there are none."""
+    if rule.id in CLAUSES:
+        return replace(rule, clause=CLAUSES[rule.id])
     words = WORDINGS[rule.id]
     return replace(
         rule,
@@ -36,6 +38,24 @@ def worded(rule: Rule) -> Rule:
     )
 
 
+CLAUSES: Mapping[str, str] = {
+    "identifier-priority": "A.1 (4.2.1)",
+    "foreign-frames": "A.1",
+    "error-frames": "4.1, 4.2.2",
+    "message-one-channel": "4.2.2",
+    "checksum": "Tables 1, 8, 14 and 16",
+    "period-mean": "A.1",
+    "period-jitter": "A.1",
+    "period-gap": "A.1",
+    "period-short": "A.1",
+    "event-repeated": "A.1",
+    "message-missing": "A.1",
+    "start-complete": "A.1",
+    "bus-load": "A.1, 4.2.2",
+    "value-range": "Table 13 rows 9 to 11 (5.1.12), Table 17 row 4 (5.2.4)",
+}
+"""Of the rules that need no other words, by their ids."""
+
 WORDINGS: Mapping[str, Wording] = {
     "frame-kind": Wording(
         title=Text("Frames are classical data frames", "帧为经典 CAN 数据帧"),
@@ -47,9 +67,6 @@ WORDINGS: Mapping[str, Wording] = {
             "帧的数据长度为 8 字节",
         ),
         clause="A.1",
-    ),
-    "identifier-priority": Wording(
-        clause="A.1 (4.2.1)",
     ),
     "source-address": Wording(
         purpose=Text(
@@ -83,18 +100,6 @@ WORDINGS: Mapping[str, Wording] = {
         ),
         clause="A.1",
     ),
-    "foreign-frames": Wording(
-        clause="A.1",
-    ),
-    "error-frames": Wording(
-        clause="4.1, 4.2.2",
-    ),
-    "message-one-channel": Wording(
-        clause="4.2.2",
-    ),
-    "checksum": Wording(
-        clause="Tables 1, 8, 14 and 16",
-    ),
     "counter-sequence": Wording(
         clause="Table 1 row 8 (5.1.1), Table 14 row 2 (5.2.1), Table 17 row 1 (5.2.4), Table 19 "
         "row 7 (5.5)",
@@ -106,33 +111,9 @@ WORDINGS: Mapping[str, Wording] = {
         ),
         clause="Table 1 row 8 (5.1.1), Table 14 row 2 (5.2.1)",
     ),
-    "period-mean": Wording(
-        clause="A.1",
-    ),
-    "period-jitter": Wording(
-        clause="A.1",
-    ),
-    "period-gap": Wording(
-        clause="A.1",
-    ),
-    "period-short": Wording(
-        clause="A.1",
-    ),
     "node-awake": Wording(
         clause="A.1, 5.2.1.4",
         severity=Severity.MUST,
-    ),
-    "event-repeated": Wording(
-        clause="A.1",
-    ),
-    "message-missing": Wording(
-        clause="A.1",
-    ),
-    "start-complete": Wording(
-        clause="A.1",
-    ),
-    "bus-load": Wording(
-        clause="A.1, 4.2.2",
     ),
     "code-defined": Wording(
         purpose=Text(
@@ -144,9 +125,6 @@ WORDINGS: Mapping[str, Wording] = {
             "位置编号、电池厂家和编码长度不作限制。",
         ),
         clause="Tables 1 to 20",
-    ),
-    "value-range": Wording(
-        clause="Table 13 rows 9 to 11 (5.1.12), Table 17 row 4 (5.2.4)",
     ),
     "code-reserved": Wording(
         purpose=Text(

@@ -7,12 +7,14 @@ from swapcan.rules.charging import (
     charge_line_connected,
     charge_stops_on_fault,
     charger_current_limit,
+    charger_own_bus,
     charger_stops,
     charger_voltage_limit,
 )
 from typedcan.judge.rule import Rule
 
 RULES: tuple[Rule, ...] = (
+    charger_own_bus.RULE,
     charge_line_connected.RULE,
     charge_current_sign.RULE,
     charger_voltage_limit.RULE,
