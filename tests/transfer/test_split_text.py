@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from transfer.wire import payloads
+from transfer.wire import ALPHABET, payloads
 
 from swapcan.messages import Manufacturer
 from swapcan.transfer import split_pack_code, split_vin
+from swapcan.transfer.text import PACK_CODE
+from swapcan.transfer.text import VIN as VIN_TRANSFER
+from typedcan.transfer import characters
 from typedcan.transfer.errors import TransferError
 
 VIN = "1M8GDM9AXKP042788"
@@ -69,3 +72,7 @@ def test_letters_that_the_frames_have_but_a_vin_has_not_pass_unless_checked() ->
     assert payloads(split_vin(vin))[0] == "01" + b"IOQ4567".hex()
     with pytest.raises(TransferError, match="character 1 is 'I'"):
         split_vin(vin, check=True)
+
+
+def test_the_characters_of_a_text_are_those_that_all_its_items_can_hold() -> None:
+    assert characters(PACK_CODE) == characters(VIN_TRANSFER) == set(ALPHABET)

@@ -15,7 +15,7 @@ from typedcan.model.transfers.reading_rules import Readings
 from typedcan.model.transfers.registry import KINDS, problems
 from typedcan.model.transfers.text import Text
 from typedcan.transfer.errors import TransferError
-from typedcan.wire.message import CharacterField, Message
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Transfer
 
 Value = Text | Readings | Blocks
@@ -62,7 +62,7 @@ class Assembler(Generic[ResultT_co]):
         self._readers: dict[type[Message], tuple[str, _Read]] = {}
         for name, parts in self._rules.wanted.items():
             message = transfer.classes[name]
-            self._readers[message] = (name, _reader(message, parts))
+            self._readers[message] = (name, _reader(parts))
 
     @property
     def messages(self) -> tuple[type[Message], ...]:
@@ -84,9 +84,10 @@ class Assembler(Generic[ResultT_co]):
 
         Messages of other transfers bring nothing about. ``at`` is the time in seconds.
         """
-        if type(message) not in self._readers:
+        known = self._readers.get(type(message))
+        if known is None:
             return ()
-        name, read = self._readers[type(message)]
+        name, read = known
         outcomes = self._rules.feed(name, read(message), at)
         if not outcomes or self._make is None:
             return outcomes
@@ -190,15 +191,8 @@ def unfit(transfer: Transfer) -> str:
     return "; ".join(f"{problem.key}: {problem.text}" for problem in found)
 
 
-def _reader(message: type[Message], parts: tuple[Part, ...]) -> _Read:
-    """What takes the values of fields: numbers, states, and of characters their codes."""
+def _reader(parts: tuple[Part, ...]) -> _Read:
+    """What takes the values of some fields."""
     names = [part.signal.python_name for part in parts]
     get: Callable[[Message], Any] = attrgetter(*names)
-    read: _Read = get if len(names) > 1 else lambda message: (get(message),)
-    if not any(isinstance(message.FIELDS[name], CharacterField) for name in names):
-        return read
-    return lambda message: tuple(map(_code, read(message)))
-
-
-def _code(value: Any) -> Any:
-    return ord(value) if isinstance(value, str) else value
+    return get if len(names) > 1 else lambda message: (get(message),)

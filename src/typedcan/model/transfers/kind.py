@@ -82,8 +82,8 @@ class SplitError(ValueError):
 class Rules(Protocol):
     """Puts one transfer together from the frames of one sender, in their order.
 
-    Values are what signals hold: numbers, codes of characters, `SignalState` where there is no
-    value, None where the frame has not the signal. Times are seconds that never go back.
+    Values are what signals hold: numbers, characters or their codes, `SignalState` where there is
+    no value, None where the frame has not the signal. Times are seconds that never go back.
     """
 
     wanted: Mapping[str, tuple[Part, ...]]

@@ -99,7 +99,7 @@ class ReadingRules(Rules):
         self.wanted = {parts.messages[0].name: own}
         if self._totals:
             self.wanted[self._totals] = signals
-        self._total_parts = signals
+        self._are_totals_own = bool(signals) and not self._totals
         self._items = len(own) - len(parts.items)
         self._fills = fills_of(parts)
         self._cycle: Cycle[tuple[Any, ...]] | None = None
@@ -141,14 +141,16 @@ class ReadingRules(Rules):
 
         Takes the totals too, where signals have them: without them nothing is complete.
         """
-        overdue = self.expire(at)
+        due = self._cycle is not None and at >= self._cycle.deadline
+        overdue = self.expire(at) if due else ()
         if message == self._totals:
             return overdue + self._set_totals(values, at)
-        if not self._totals and self._total_parts:
+        if self._are_totals_own:
             overdue += self._set_totals(values[2 : self._items], at)
         if self._cycle is None:
             return overdue
-        return overdue + self._feed_frame(self._cycle, values, at)
+        outcomes = self._feed_frame(self._cycle, values, at)
+        return overdue + outcomes if overdue else outcomes
 
     def expire(self, now: float) -> tuple[Problem, ...]:
         """What is overdue at that time; said once until the next result."""
@@ -177,19 +179,28 @@ class ReadingRules(Rules):
     ) -> tuple[Readings | Problem, ...]:
         if at - cycle.last > cycle.silence:
             cycle.reset()
-        transfer, items = self._parts.transfer, values[self._items :]
-        group, number = whole(values[0]), whole(values[1])
-        key = 0
-        if group is not None and number is not None:
-            key = key_of(group - transfer.first_group + 1, number - transfer.first_number + 1)
-        outcome = cycle.feed(key, _last_reading(items, self._fills), items, at)
+        items = values[self._items :]
+        key = self._key(values[0], values[1])
+        within = len(items)
+        if self._fills or not isinstance(items[-1], float):
+            within = _last_reading(items, self._fills)
+        outcome = cycle.feed(key, within, items, at)
+        if outcome is Outcome.KEPT:
+            return ()
         if outcome is Outcome.COMPLETE:
             return (self._result(cycle, at),)
         if outcome is Outcome.FOREIGN:
             return (self._foreign(values[0], values[1], at),)
-        if outcome is Outcome.CONTRADICTED:
-            return (self._contradiction(cycle, at),)
-        return ()
+        return (self._contradiction(cycle, at),)
+
+    def _key(self, group: Any, number: Any) -> int:
+        """The key of a frame with this group and number, 0 where there can be none."""
+        if type(group) is not int or type(number) is not int:
+            group, number = whole(group), whole(number)
+            if group is None or number is None:
+                return 0
+        transfer = self._parts.transfer
+        return key_of(group - transfer.first_group + 1, number - transfer.first_number + 1)
 
     def _result(self, cycle: Cycle[tuple[Any, ...]], at: float) -> Readings:
         frames = iter(cycle.completed)

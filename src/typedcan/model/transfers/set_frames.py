@@ -82,9 +82,10 @@ def reader_of(parts: Parts, wanted: Sequence[Part], slot: Slot) -> Reader:
 
 
 def _picker(places: Sequence[int]) -> Callable[[tuple[Any, ...]], Content]:
-    if len(places) > 1:
-        return itemgetter(*places)
-    return lambda values: tuple(values[place] for place in places)
+    begin = places[0] if places else 0
+    if [*places] == [*range(begin, begin + len(places))]:
+        return itemgetter(slice(begin, begin + len(places)))
+    return itemgetter(*places)
 
 
 def wanted_of(parts: Parts, message: str) -> tuple[Part, ...]:

@@ -70,6 +70,7 @@ class SetRules(Rules, Generic[ValueT]):
         self._totals = parts.totals
         if self._totals and parts.count:
             self.wanted[self._totals] = (parts.count,)
+        self._is_count_own = parts.count is not None and not self._totals
         self._numbers = {message.name: n for n, message in enumerate(parts.messages, 1)}
         self._count: int | None = None
         fixed = transfer.count or (0 if parts.count else len(parts.items))
@@ -113,13 +114,15 @@ class SetRules(Rules, Generic[ValueT]):
         """What a frame brings about: a value, problems, or neither."""
         if message == self._totals:
             return self._set_count(whole(values[0]))
-        outcomes: list[ValueT | Problem] = list(self.expire(at))
-        if self._parts.count and not self._totals:
+        outcomes: list[ValueT | Problem] = []
+        if at >= self._since + self._timeout or at >= self._last + _SILENCE * self._timeout:
+            outcomes += self.expire(at)
+        if self._is_count_own:
             outcomes += self._set_own_count(whole(values[1]), at)
         number = values[0] if self._parts.number else self._numbers[message]
-        if number not in self.slots:
+        reader = self._readers.get(number)
+        if reader is None:
             return (*outcomes, *self._no_slot(number, at))
-        reader = self._readers[number]
         content = reader.content(values)
         if self._known.get(number, content) != content:
             text = f"frame {number} differs from before: the value changed, or two nodes send it"
@@ -244,7 +247,9 @@ class SetRules(Rules, Generic[ValueT]):
             items += content[reader.items :]
             details.update(zip(reader.details, content, strict=False))
             length = length if reader.length is None else whole(content[reader.length])
-        made = self._make(items[:length], details, at)
+        # A character may come as such, or as its code.
+        codes = [ord(item) if isinstance(item, str) else item for item in items[:length]]
+        made = self._make(codes, details, at)
         if isinstance(made, tuple):
             kind, text = made
             return (self._problem(kind, text, at),)
