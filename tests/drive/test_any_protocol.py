@@ -8,6 +8,7 @@ from contextlib import ExitStack
 
 import can
 import pytest
+from drive.crane_rig import Rig
 from node.rough_bus import raising
 from simulate.crane import (
     BEACON,
@@ -17,59 +18,16 @@ from simulate.crane import (
     LIFT,
     STOP,
     UP,
-    Panel,
-    Winch,
+    VALVE,
     lift_bytes,
     lift_frame,
 )
 
 from typedcan.drive.departure import Departure
-from typedcan.drive.driving import LEAVING, BusyBusError, Driving, Left, look_out_time
+from typedcan.drive.driving import LEAVING, BusyBusError, Left, look_out_time
 from typedcan.drive.noting_bus import EndedError, NotingBus
 from typedcan.node.clock import SimulatedClock
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
-from typedcan.simulate.world import World
-
-STATE_ID = (0x181, False)
-
-
-class Rig:
-    """A panel on a bus that is driven, and a winch that lives beside it, on one clock."""
-
-    def __init__(self, stack: ExitStack) -> None:
-        self.clock = SimulatedClock()
-        self.wire = SimulatedWire(self.clock)
-        self.listener, self.other, beside, bare = (
-            stack.enter_context(SimulatedBus(self.wire)) for _ in range(4)
-        )
-        self.bus = stack.enter_context(
-            NotingBus(bare, CODEC, lambda _: None, clock=self.clock, played=[LIFT, BRAKE])
-        )
-        self.panel = Panel(self.bus, self.clock)
-        self.panel.wanted = UP
-        self.winch = Winch(beside, self.clock)
-        self.driving = Driving([self.bus], clock=self.clock, wires=(self.wire,))
-        self.world = World(self.panel, self.winch, clock=self.clock, wires=(self.wire,))
-
-    def departure(self, **others: object) -> Departure:
-        """The panel goes on to want what it wants, and the winch to live."""
-        given = {"live_on": [self.panel, self.winch], "are_off": self.is_off, **others}
-        return Departure(**given)  # type: ignore[arg-type]
-
-    def is_off(self) -> bool:
-        """Whether the winch has said that it stands since it was told last to move."""
-        frame = self.bus.latest.get(STATE_ID)
-        return frame is not None and frame.data[0] == 0
-
-    def lifts(self) -> list[can.Message]:
-        """Frames of Lift since this was asked last."""
-        frames = []
-        while frame := self.listener.recv(0):
-            frames.append(frame)
-        return [each for each in frames if (each.arbitration_id, each.is_extended_id) == LIFT_ID]
-
-
-LIFT_ID = (0x101, False)
 
 
 @pytest.fixture
@@ -261,3 +219,38 @@ def test_after_the_end_nothing_that_acts_goes_out_and_all_else_does(
         bus.send(lift_frame(DOWN))
     bus.send(lift_frame(STOP, 2))
     assert bytes(last_of(far).data) == lift_bytes(STOP, 2)
+
+
+def test_what_is_known_by_its_pgn_is_ended_at_each_address_that_it_was_sent_to(
+    noting: tuple[NotingBus, SimulatedBus],
+) -> None:
+    bus, far = noting
+    for number, code in ((0x0CEF2180, 1), (0x18EF2281, 1), (0x0CEF2380, 0), (0x0CEF2180, 1)):
+        bus.send(can.Message(arbitration_id=number, data=[code, *bytes(7)]))
+    assert [message.NAME for message in bus.acting] == ["Valve", "Valve"]
+    bus.send(can.Message(arbitration_id=0x18EF2281, data=bytes(8)))
+    assert [message.NAME for message in bus.acting] == ["Valve"]
+    while far.recv(0):
+        pass
+    assert bus.send_safe_codes() is None
+    assert bus.acting == ()
+    shut = [(frame.arbitration_id, bytes(frame.data)) for frame in iter(lambda: far.recv(0), None)]
+    assert shut == [(number, bytes(8)) for number in (0x0CEF2180, 0x18EF2281, 0x0CEF2380)]
+    with pytest.raises(EndedError):
+        bus.send(can.Message(arbitration_id=0x0CEF2480, data=[1, *bytes(7)]))
+
+
+def test_another_who_sends_what_is_known_by_its_pgn_is_found_whatever_its_address() -> None:
+    clock = SimulatedClock()
+    wire = SimulatedWire(clock)
+    with (
+        SimulatedBus(wire) as bus,
+        SimulatedBus(wire) as far,
+        NotingBus(bus, CODEC, lambda _: None, clock=clock, played=[VALVE]) as noting,
+    ):
+        far.send(can.Message(arbitration_id=0x0CF02180, data=bytes(8)))
+        noting.recv(0)
+        assert noting.intruder is None
+        far.send(can.Message(arbitration_id=0x18EF2142, data=bytes(8)))
+        noting.recv(0)
+        assert noting.intruder is VALVE

@@ -1,8 +1,8 @@
 """A protocol of somebody else's in which codes act: a panel moves a winch, by frames of 11 bits.
 
 `Lift` has an alive counter from 1 to 15 and a CRC-8; `Beacon` has its number with 29 bits and
-commands nothing; `Brake` is a CAN FD frame of 10 bytes, which fills 12. Their bytes here are put
-together by hand.
+commands nothing; `Brake` is a CAN FD frame of 10 bytes, which fills 12; `Valve` is known by its
+PGN, and goes to a receiver with an address. Their bytes here are put together by hand.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from typedcan.simulate.participant import Participant
 from typedcan.wire.codec import Codec
 from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.link import Received
+from typedcan.wire.message import Message as Message_
 
 STOP, UP, DOWN = 0, 1, 2
 RELEASED, HELD = 1, 0
@@ -33,6 +34,7 @@ def _table(name: str, *labels: str) -> ValueTable:
 
 _MOTION = _table("Motion", "Stop", "Up", "Down")
 _BRAKE = _table("Hold", "Held", "Released")
+_VALVE = _table("Opens", "Shut", "Open")
 _STATE = _table("Moving", "Stands", "Moves")
 
 MODEL = Protocol(
@@ -95,6 +97,23 @@ MODEL = Protocol(
             ),
         ),
         Message(
+            name="Valve",
+            frame_id=0x0CEF00FE,
+            length=8,
+            by_pgn=True,
+            sender="PANEL",
+            signals=(
+                signal(
+                    "Opens",
+                    0,
+                    2,
+                    value_table=_VALVE,
+                    receivers=("WINCH",),
+                    acting=ActingCodes(codes=(1,), safe=0),
+                ),
+            ),
+        ),
+        Message(
             name="State",
             frame_id=0x181,
             extended=False,
@@ -117,7 +136,7 @@ MODEL = Protocol(
 )
 CRANE = typed_protocol(MODEL)
 CODEC = Codec(CRANE)
-LIFT, BEACON, BRAKE, STATE = CRANE.messages
+LIFT, BEACON, BRAKE, VALVE, STATE = CRANE.messages
 
 
 def crc8(data: bytes) -> int:
@@ -156,7 +175,11 @@ class Panel(Participant):
         self.node = LiveNode(CRANE, self.name, bus, clock=clock)
         super().__init__(self.node)
         self.wanted = STOP
-        self.node.supply(LIFT, lambda: [LIFT(motion=self.wanted, load=7)])  # type: ignore[call-arg]
+        self.node.supply(LIFT, self.lifts)
+
+    def lifts(self) -> list[Message_]:
+        """What it sends of `Lift`."""
+        return [LIFT(motion=self.wanted, load=7)]  # type: ignore[call-arg]
 
     def step(self, now: float) -> None:
         """Nothing changes by itself."""

@@ -73,9 +73,9 @@ class NotingBus(can.BusABC):
         self._record = InOrder(note)
         self._echoes = echoes or Echoes()
         self._codec = codec
-        self._commands = SentCommands()
+        # By identifier: what is matched by its PGN may be sent to several receivers.
+        self._commands: dict[Identifier, SentCommands] = {}
         self._acting = frozenset(kind for kind in codec.protocol.messages if acting_fields(kind))
-        self._sent_with: dict[type[Message], int] = {}  # the identifier of a message that can act
         self._trouble: dict[str, tuple[float, Exception]] = {}  # by direction
         self.may_act: Callable[[], object] = lambda: None
         self.latest: dict[Identifier, can.Message] = {}
@@ -92,7 +92,8 @@ class NotingBus(can.BusABC):
     @property
     def acting(self) -> tuple[Message, ...]:
         """The messages that were sent last with a code that acts, as far as is known."""
-        return self._commands.acting
+        commands = tuple(self._commands.values())  # another thread may send a first one meanwhile
+        return tuple(message for each in commands for message in each.acting)
 
     @property
     def failure(self) -> BaseException | None:
@@ -115,9 +116,9 @@ class NotingBus(can.BusABC):
             self.may_act()
             if self.has_ended:
                 raise EndedError(type(command))
-        obeyed = self._is_obeyed(msg, command)
-        self._sent_with[type(command)] = msg.arbitration_id
-        self._commands.begin(command)
+        commands = self._commands.setdefault(identifier_of(msg), SentCommands())
+        obeyed = self._is_obeyed(msg, command, commands.last(type(command)))
+        commands.begin(command)
         if self.acting:
             self.has_acted = True
             self.latest.clear()
@@ -125,7 +126,7 @@ class NotingBus(can.BusABC):
             sent = self._sent(msg, timeout)
             self.commanded_at = self._clock.now()
             if obeyed:
-                self._commands.end(command)
+                commands.end(command)
         finally:
             if moves and self.has_ended:  # by another thread, or by a signal, in the meantime
                 self.send_safe_codes()
@@ -139,15 +140,16 @@ class NotingBus(can.BusABC):
         """
         self.has_ended = True
         failure: BaseException | None = None
-        for message in self._commands.all:
-            try:
-                sent = self._sent(self._safe_frame(message), 0)
-            except BaseException as error:  # noqa: BLE001 - drivers raise what they like
-                failure = failure or error
-            else:
-                self.commanded_at = self._clock.now()
-                self._commands.made_safe(message)
-                self._record.lay_aside(*sent)
+        for identifier, commands in tuple(self._commands.items()):
+            for message in commands.all:
+                try:
+                    sent = self._sent(self._safe_frame(message, identifier, commands), 0)
+                except BaseException as error:  # noqa: BLE001 - drivers raise what they like
+                    failure = failure or error
+                else:
+                    self.commanded_at = self._clock.now()
+                    commands.made_safe(message)
+                    self._record.lay_aside(*sent)
         return failure
 
     def _command_in(self, frame: can.Message) -> Message | None:
@@ -160,30 +162,32 @@ class NotingBus(can.BusABC):
         except TypedcanError:
             return None
 
-    def _is_obeyed(self, frame: can.Message, command: Message) -> bool:
+    def _is_obeyed(self, frame: can.Message, command: Message, before: Message | None) -> bool:
         """Whether its receiver has no reason to pass over a frame: checksum and counter go on."""
         number, extended = identifier_of(frame)
         try:
             self._codec.decode(number, bytes(frame.data), extended=extended)
         except TypedcanError:
             return False
-        counter, before = type(command).COUNTER, self._commands.last(type(command))
+        counter = type(command).COUNTER
         if counter is None or before is None:
             return True
         field = command.field_of(counter.signal).name
         return bool(getattr(command, field) != getattr(before, field))
 
-    def _safe_frame(self, message: Message) -> can.Message:
+    def _safe_frame(
+        self, message: Message, identifier: Identifier, commands: SentCommands
+    ) -> can.Message:
         kind = type(message)
         counter = None
         if kind.COUNTER:
             last = getattr(message, kind.field_of(kind.COUNTER.signal).name)
             counter = kind.COUNTER.after(last) if isinstance(last, int) else kind.COUNTER.first
         frame = self._codec.frame(message, counter=counter, safe=True)
-        frame.arbitration_id = self._sent_with.get(kind, frame.arbitration_id)
-        number, extended = identifier_of(frame)
+        frame.arbitration_id, extended = identifier
         data = bytes(frame.data)
-        self._commands.begin(self._codec.decode(number, data, verify=False, extended=extended))
+        sent = self._codec.decode(frame.arbitration_id, data, verify=False, extended=extended)
+        commands.begin(sent)
         return frame
 
     def _sent(self, msg: can.Message, timeout: float | None) -> tuple[can.Message, float]:

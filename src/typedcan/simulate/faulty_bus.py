@@ -111,13 +111,14 @@ class FaultyBus(can.BusABC):
 
         Nothing happens where it is not there.
         """
-        numbers = {(message.FRAME_ID, message.EXTENDED) for message in messages}
         with self._lock:
             for active in [key for key in self._active if key[0] == fault]:
                 if not messages or active[1] in messages:
                     del self._active[active]
             for seen in [key for key in self._seen if key[0] == fault]:
-                if not messages or seen[1] in numbers:
+                number, extended = seen[1]
+                entry = self._entries.entry(number, extended=extended)
+                if not messages or (entry and entry.type in messages):
                     del self._seen[seen]
             if fault == "stuck_counter":
                 for message in messages or tuple(self._stuck):
