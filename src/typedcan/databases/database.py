@@ -11,6 +11,7 @@ from cantools.database.can import Message as CantoolsMessage
 from cantools.database.can import Node as CantoolsNode
 from cantools.database.can import Signal as CantoolsSignal
 
+from typedcan.databases.protection import protected
 from typedcan.databases.scaling import limits, scaling, start_value
 from typedcan.databases.value_tables import ValueTables, code_labelled, codes_of
 from typedcan.model import protocol as model
@@ -149,7 +150,7 @@ class _Builder:
         fields = field_names(field_name(signal.name, prefixes) for signal in message.signals)
         senders = [name for name in dict.fromkeys(message.senders) if name != _NOBODY]
         is_fd = message.is_fd or self._needs_fd(message)
-        return model.Message(
+        found = model.Message(
             name=message.name,
             title=title,
             english=english,
@@ -173,6 +174,7 @@ class _Builder:
             errata=tuple(str(_attribute(message, "SpecErrata") or "").split()),
             where=places.message,
         )
+        return protected(found, message)
 
     def _is_by_pgn(self, message: CantoolsMessage) -> bool:
         """Whether the file says that it is a parameter group of J1939, or that all of them are."""

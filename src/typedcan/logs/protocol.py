@@ -95,7 +95,7 @@ def read(protocol: model.Protocol, name: str) -> Protocol:
         references={},
         periods={each.name: each.period / 1000 for each in protocol.messages if each.period},
         conditional=frozenset(),
-        checked={},
+        checked={each.name: each for each in protocol.messages if each.checksum or each.counter},
         readings=(),
         values=(),
     )
