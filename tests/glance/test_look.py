@@ -19,7 +19,8 @@ def told(monitored: Monitored) -> list[str]:
 
 
 def test_the_line_that_sums_up_has_what_is_known_of_the_pack(monitored: Monitored) -> None:
-    assert look(monitored.at(0.0)).summary() == []
+    shown = look(monitored.at(0.0))
+    assert (shown.name, shown.summary()) == ("pack", [])
     monitored.hear(
         frame("B2V_ST2", 0.0, SOC=76.4, Current=-100),
         frame("B2V_ST3", 0.0, Upack_Batt=600),

@@ -35,7 +35,7 @@ def bus() -> Iterator[list[str]]:
 def test_lines_tell_what_happens_and_sum_up(
     bus: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert cli.run(["monitor", *bus, "--seconds", "0.5", "--interval", "0.2"]) == 0
+    assert cli.run(["monitor", *bus, "--seconds", "1", "--interval", "0.4"]) == 0
     out, errors = capsys.readouterr()
     lines = [re.fullmatch(r" *\d+\.\d{3}  (.+)", line) for line in out.splitlines()]
     texts = [line[1] for line in lines if line]
@@ -54,7 +54,7 @@ def test_lines_tell_what_happens_and_sum_up(
 def test_json_has_one_object_an_interval(
     bus: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    arguments = ["--json", "--seconds", "0.5", "--interval", "0.2", "--filter", "st2"]
+    arguments = ["--json", "--seconds", "1", "--interval", "0.4", "--filter", "st2"]
     assert cli.run(["monitor", *bus, *arguments]) == 0
     objects = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert len(objects) == 3

@@ -62,6 +62,7 @@ def test_faults_are_counted_with_their_message(monitored: Monitored) -> None:
     assert row(picture, "B2V_ST2").frames == 0
     assert row(picture, "B2V_ST1").faults["checksum"] == 1
     assert row(picture, "B2V_ST1").faults["counter repeated"] == 1
+    assert (row(picture, "B2V_ST1").fault_count, row(picture, "B2V_ST2").fault_count) == (2, 1)
     totals = picture.totals
     assert (totals.length, totals.checksum, totals.counter, totals.faults) == (1, 1, 1, 3)
     assert (totals.frames, totals.messages) == (4, 2)

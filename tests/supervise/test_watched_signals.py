@@ -17,7 +17,7 @@ from swapcan.messages import (
 )
 from typedcan.model.protocol import Signal
 from typedcan.supervise import SignalChanged, SupervisionEvent, Supervisor
-from typedcan.supervise.signal_watch import judge_of
+from typedcan.supervise.signal_watch import Judge, judge_of
 from typedcan.wire.message import PhysicalField, SignalState
 
 
@@ -98,6 +98,45 @@ def test_the_last_value_of_a_range_is_in_it_though_its_float_is_not() -> None:
     assert judge
     assert 3 * 0.1 > 0.3
     assert [judge(raw * 0.1) for raw in (2, 3, 4)] == [None, None, "out of range"]
+
+
+@pytest.mark.parametrize("signed", [False, True])
+def test_a_value_within_what_the_bits_can_hold_is_never_judged(*, signed: bool) -> None:
+    def judge(maximum: float, states: dict[int, SignalState]) -> Judge | None:
+        low = -128 if signed else 0
+        signal = Signal(
+            name="Temp",
+            start=0,
+            length=8,
+            signed=signed,
+            minimum=Decimal(low - 40),
+            maximum=Decimal(maximum),
+        )
+        return judge_of(
+            PhysicalField(
+                signal=signal,
+                name="temp",
+                dbc_name="Temp",
+                title="",
+                length=8,
+                offset=-40.0,
+                minimum=low - 40.0,
+                maximum=maximum,
+                states=states,
+            )
+        )
+
+    highest = (127 if signed else 255) - 40.0
+    assert judge(highest, {}) is None
+    narrower = judge(highest - 5, {})
+    assert narrower
+    assert (narrower(highest - 5), narrower(highest)) == (None, "out of range")
+    states = {126: SignalState.ABNORMAL, 127: SignalState.INVALID}
+    for found in (judge(highest, states), judge(highest - 5, states)):
+        assert found
+        assert found(SignalState.INVALID) == "invalid"
+        assert found(SignalState.ABNORMAL) == "abnormal"
+        assert found(0.0) is None
 
 
 def test_a_value_that_stays_out_of_range_is_told_once() -> None:
