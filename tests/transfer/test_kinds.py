@@ -137,6 +137,17 @@ def test_a_number_that_its_group_has_not_is_told(payload: str, text: str) -> Non
     assert problem.text == text
 
 
+def test_what_is_missing_is_named_as_it_is_numbered_and_only_the_first_of_it() -> None:
+    assembler = Assembler[Any](rack().transfer("heats"))
+    named = "frame 1 of Heats row 0, frame 2 of Heats row 0, frame 3 of Heats row 1"
+    assert assembler.missing() == f"{named} and 2 more are missing"
+    for message in delivered("heats", "00013c3d0000", "010346ff0000", "010448ff0000"):
+        assembler.take(message, 0.0)
+    assert assembler.missing() == "frame 2 of Heats row 0, frame 5 of Heats row 2 are missing"
+    [problem] = assembler.expire(1.0)
+    assert problem.text == f"not complete within 1 s: {assembler.missing()}"
+
+
 def test_blocks_are_counted_in_frames_by_their_own_frames() -> None:
     value = Blocks("key", tuple(range(10)), {"id": 0x1234})
     own = frames("key", value)

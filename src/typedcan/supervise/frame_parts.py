@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from typedcan.model.transfer import Counted
 from typedcan.supervise.bit_places import ByteOrder
 from typedcan.supervise.events import SignalChanged, SignalKind
 from typedcan.supervise.periods import Periods
@@ -83,7 +84,10 @@ class Parts:
         self._group = numbered[0] if transfer.group else None
         self._number = numbered[-1]
         self._items = [ref.field for ref in transfer.items]
-        self._count = None if transfer.group else transfer.count
+        facts = transfer.parts.transfer
+        is_counted = facts.count and not facts.group and facts.counted is Counted.ITEMS
+        self._count = facts.count if is_counted else None
+        self._first = facts.first_number
         self._fields = fields
         self._numbering = numbering
         self._order: ByteOrder = order
@@ -121,7 +125,7 @@ class Parts:
             raise LookupError(key)
         used = len(self._items)
         if self._count is not None:
-            used = min(used, max(0, self._count - used * (key[-1] - 1)))
+            used = min(used, max(0, self._count - used * (key[-1] - self._first)))
         watch = self._watch if used == len(self._items) else self._watch_of(used)
         return _Part(now, stamp, Signals(watch, self._onsets, key))
 
