@@ -51,7 +51,7 @@ from typedcan.node.errors import (
     RequestTimeoutError as RequestTimeoutError,
     StillActingError as StillActingError,
 )
-from typedcan.transfer.errors import TransferError as TransferError
+from typedcan.transfer import TransferError as TransferError
 from typedcan.wire.link import (
     Counts as Counts,
     Fault as Fault,

@@ -15,8 +15,7 @@ from typedcan.model.transfers.blocks import NumberedBlocks
 from typedcan.node.clock import SimulatedClock
 from typedcan.node.errors import RequestError
 from typedcan.node.node import Node
-from typedcan.transfer import Blocks, Problem, Readings, Text, Transfers, split
-from typedcan.transfer.errors import TransferError
+from typedcan.transfer import Blocks, Problem, Readings, Text, TransferError, Transfers, split
 from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.message import Message
 

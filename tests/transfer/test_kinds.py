@@ -14,10 +14,10 @@ from typedcan.transfer import (
     Reading,
     Readings,
     Text,
+    TransferError,
     Transfers,
     split,
 )
-from typedcan.transfer.errors import TransferError
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message, SignalState
 

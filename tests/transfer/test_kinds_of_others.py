@@ -19,8 +19,7 @@ from typedcan.logs.transfers.values import ValueColumns
 from typedcan.model.protocol import ByteOrder, Code, Message, Protocol, Signal, ValueTable
 from typedcan.model.transfer import Counted, Ending, Numbering, Transfer
 from typedcan.model.transfers.kind import MOST_ITEMS
-from typedcan.transfer import Assembler, Text, Transfers, split
-from typedcan.transfer.errors import TransferError
+from typedcan.transfer import Assembler, Text, TransferError, Transfers, split
 from typedcan.wire.codec import Codec
 from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol as TypedProtocol

@@ -14,7 +14,7 @@ from swapcan.transfer import (
     split_cell_voltages,
     split_probe_temperatures,
 )
-from typedcan.transfer.errors import TransferError
+from typedcan.transfer import TransferError
 
 INVALID = SignalState.INVALID
 

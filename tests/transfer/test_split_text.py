@@ -11,8 +11,7 @@ from swapcan.messages import Manufacturer
 from swapcan.transfer import split_pack_code, split_vin
 from swapcan.transfer.text import PACK_CODE
 from swapcan.transfer.text import VIN as VIN_TRANSFER
-from typedcan.transfer import characters
-from typedcan.transfer.errors import TransferError
+from typedcan.transfer import TransferError, characters
 
 VIN = "1M8GDM9AXKP042788"
 CODE = "04QPE4C8J4K5L6M7N8P9R0S1"

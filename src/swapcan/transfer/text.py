@@ -14,8 +14,7 @@ from swapcan.messages import (
     Manufacturer,
 )
 from swapcan.transfer.vin import vin_problem
-from typedcan.transfer import Assembler, Problem, Text, split
-from typedcan.transfer.errors import TransferError
+from typedcan.transfer import Assembler, Problem, Text, TransferError, split
 from typedcan.wire.protocol import Transfer
 
 VIN = PROTOCOL.transfer("vin")

@@ -12,7 +12,7 @@ from typedcan.model.transfers.kind import ProblemKind as Kind
 from typedcan.model.transfers.reading_rules import Reading, Readings
 from typedcan.model.transfers.text import Text
 from typedcan.transfer.assembly import Assembler, Transfers, Value
-from typedcan.transfer.split import characters, create, split, text_slots
+from typedcan.transfer.split import TransferError, characters, create, split, text_slots
 
 __all__ = [
     "Assembler",
@@ -22,6 +22,7 @@ __all__ = [
     "Reading",
     "Readings",
     "Text",
+    "TransferError",
     "Transfers",
     "Value",
     "characters",

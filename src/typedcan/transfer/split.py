@@ -6,14 +6,23 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from typedcan.model.errors import TypedcanError
 from typedcan.model.transfers import text
 from typedcan.model.transfers.kind import Frame, SplitError
 from typedcan.model.transfers.registry import KINDS
 from typedcan.model.transfers.set_frames import slots_of
-from typedcan.transfer.errors import TransferError
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protocol import Transfer
+
+
+class TransferError(TypedcanError, ValueError):
+    """A value cannot be split into frames: ``transfer`` names it, ``problem`` says why."""
+
+    def __init__(self, transfer: str, problem: str) -> None:
+        self.transfer = transfer
+        self.problem = problem
+        super().__init__(f"{transfer}: {problem}")
 
 
 def split(transfer: Transfer, value: Any) -> tuple[Message, ...]:
