@@ -19,6 +19,7 @@ from swapcan import PROTOCOL
 from typedcan.databases.dbc import read_dbc
 from typedcan.model import j1939
 from typedcan.model.protection import Counter
+from typedcan.model.protocol import Node as NodeFacts
 from typedcan.node.node import Node
 from typedcan.wire.codec import Codec
 from typedcan.wire.dynamic import typed_protocol
@@ -182,10 +183,24 @@ def test_what_is_sent_has_the_identifier_of_the_database_from_the_address_of_the
     assert sent("Plain", tester) == 0x4FF
 
 
-def test_without_a_known_address_the_null_address_stays(near: can.BusABC) -> None:
-    nobody = typed_protocol(dataclasses.replace(MODEL, nodes=()))
+@pytest.mark.parametrize("address", [-1, 256])
+def test_what_is_no_address_is_refused(protocol: Protocol, near: can.BusABC, address: int) -> None:
+    kind = protocol.message("Torque")
+    with pytest.raises(ValueError, match=f"{address} is no address of J1939"):
+        Link(near, Codec(protocol), source_address=address).send(kind(torque_speed=1))  # type: ignore[call-arg]
+    with pytest.raises(ValueError, match=f"{address} is no address of J1939"):
+        Link(near, Codec(protocol)).send(kind(torque_speed=1), destination=address)  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize("address", [None, 254, 255, 65535])
+def test_a_node_of_which_no_address_is_known_sends_from_the_null_address(
+    near: can.BusABC, address: int | None
+) -> None:
+    nodes = (NodeFacts(name="Engine", address=address),)
+    nobody = typed_protocol(dataclasses.replace(MODEL, nodes=nodes))
     kind = nobody.message("EngineOfAny")
-    assert Link(near, Codec(nobody)).send(kind(any_speed=1)).arbitration_id == 0x0CF004FE  # type: ignore[call-arg]
+    sent = Link(near, Codec(nobody)).send(kind(any_speed=1))  # type: ignore[call-arg]
+    assert sent.arbitration_id == 0x0CF004FE
 
 
 def test_what_takes_several_frames_is_not_sent_in_one(protocol: Protocol, near: can.BusABC) -> None:

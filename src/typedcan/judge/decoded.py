@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+from numpy.typing import NDArray
+
 from typedcan.judge.series import Series
 from typedcan.logs.frames import FrameBlock
 from typedcan.model.seal import Seal
@@ -25,6 +28,9 @@ class DecodedChunk:
         The latest time so far, in seconds since the log's begin.
     seals
         By name of the message, what makes its checksum, where something does.
+    others
+        int64, rows of messages that are found by their PGN and come from other nodes than those
+        that send them by the protocol; None where there are none. They are nobody's to judge.
     """
 
     def __init__(
@@ -37,6 +43,7 @@ class DecodedChunk:
         sound: Mapping[type[Message], Series],
         *,
         seals: Mapping[str, Seal],
+        others: NDArray[np.int64] | None = None,
     ) -> None:
         self.block = block
         self.begin = begin
@@ -45,6 +52,7 @@ class DecodedChunk:
         self.by_message = frames
         self.sound_by_message = sound
         self.seals = seals
+        self.others = others
 
     def frames(self, message: type[Message]) -> Series:
         """The frames of a message with the right length, whatever their checksum."""

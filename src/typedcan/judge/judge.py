@@ -13,8 +13,8 @@ from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.decoded import DecodedChunk
 from typedcan.judge.findings import Findings
 from typedcan.judge.judgement import Judgement, RuleResult
-from typedcan.judge.measure.channels import Channels, Formats, has_length
-from typedcan.judge.measure.left_over import keys_of, left_over
+from typedcan.judge.measure.channels import Channels, Formats, Senders, has_length
+from typedcan.judge.measure.left_over import by_pgn_of, keys_of, left_over
 from typedcan.judge.measure.load import LoadMeter
 from typedcan.judge.measure.periods import PeriodMeter
 from typedcan.judge.measure.presence import nodes_of
@@ -105,6 +105,7 @@ class Judge:
         self._load, self._periods = LoadMeter(), PeriodMeter(protocol)
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
         self._channels, self._formats = Channels(), Formats(protocol)
+        self._senders, self._by_pgn = Senders(protocol), by_pgn_of(protocol)
         self._begin: float | None = None
         self._end = 0.0
         self._orders = 0
@@ -155,10 +156,15 @@ class Judge:
 
     def _decoded(self, block: FrameBlock, begin: float) -> DecodedChunk:
         decoded = self._decoder.decode(block)
+        others: list[NDArray[np.int64]] = []
         frames: dict[type[Message], Series] = {}
         sound: dict[type[Message], Series] = {}
         for message in self._protocol.messages:
             columns = decoded.messages.get(message.NAME)
+            if columns is not None and columns.by_pgn:
+                sent = self._senders.sent(message, block.frame_id[columns.rows])
+                others.append(columns.rows[~sent])
+                columns = rows_where(columns, sent) if sent.any() else None
             columns = None if columns is None else self._own(message, columns)
             right = None if columns is None else self._right(message, columns)
             frames[message] = self._series(message, columns, begin, sound=False)
@@ -167,7 +173,16 @@ class Judge:
             sound[message] = self._series(message, columns, begin, sound=True)
             self._counts[message.NAME] += frames[message].fresh
         self._counts[""] += len(block) - sum(each.fresh for each in frames.values())
-        return DecodedChunk(block, begin, self._orders, self._end, frames, sound, seals=self._seals)
+        return DecodedChunk(
+            block,
+            begin,
+            self._orders,
+            self._end,
+            frames,
+            sound,
+            seals=self._seals,
+            others=np.concatenate(others) if others else None,
+        )
 
     def _measured(self, chunk: DecodedChunk) -> Chunk:
         """The chunk with what rules need to know of it, measured once for all of them."""
@@ -179,7 +194,7 @@ class Judge:
             chunk,
             timing=timing,
             nodes=self._steps.presences.nodes,
-            left_over=left_over(chunk, self._keys),
+            left_over=left_over(chunk, self._keys, self._by_pgn),
             cycles=cache(lambda: self._readings.cycles(chunk.block, self._channels.first)),
         )
 

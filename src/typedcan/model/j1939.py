@@ -54,9 +54,18 @@ def needs_several_frames(message: Message) -> bool:
 
 
 def address_in(protocol: Protocol, name: str) -> int:
-    """The address of a node of that name; the null address where it has none."""
-    known = [node.address for node in protocol.nodes if node.name == name]
-    return NULL_ADDRESS if not known or known[0] is None else known[0]
+    """The address of a node of that name; the null address where it has none that is one."""
+    known = (node.address for node in protocol.nodes if node.name == name)
+    address = next(known, None)
+    return address if address is not None and 0 <= address < NULL_ADDRESS else NULL_ADDRESS
+
+
+def own_addresses(protocol: Protocol, message: Message) -> frozenset[int]:
+    """The source addresses of a message's sender, as far as they are known."""
+    nodes = [node for node in protocol.nodes if node.name in message.senders]
+    known = [each for node in nodes for each in (node.address, *node.other_addresses)]
+    given = (*known, source_address(message.frame_id))
+    return frozenset(each for each in given if each is not None and each < NULL_ADDRESS)
 
 
 def sent_identifier(message: Message, source: int, receiver: int | None = None) -> int:
@@ -64,9 +73,13 @@ def sent_identifier(message: Message, source: int, receiver: int | None = None) 
 
     It is that of the database. Of a message that is matched by its PGN the null address as source
     stands for the sender's, ``source``, and the null address as destination for ``receiver``, else
-    for all; a ``receiver`` that is given counts in any case.
+    for all; a ``receiver`` that is given counts in any case. Raises `ValueError` for what is no
+    address.
     """
     number = message.frame_id
+    for address in (source, receiver):
+        if address is not None and not 0 <= address <= GLOBAL_ADDRESS:
+            raise ValueError(f"{address} is no address of J1939: they are 0 to {GLOBAL_ADDRESS}")
     if not message.by_pgn:
         return number
     if source_address(number) == NULL_ADDRESS:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.model.j1939 import own_addresses
 from typedcan.model.protocol import Aspect
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
@@ -34,6 +35,26 @@ class Channels:
         there = np.array([channel == first for channel in block.channels])
         own: NDArray[np.bool_] = there[block.channel[rows]]
         return own
+
+
+class Senders:
+    """Whose frames of a message are judged that is found by its PGN: those of its sender.
+
+    Where nobody says which address that has, they are those of who sends it first.
+    """
+
+    def __init__(self, protocol: Protocol) -> None:
+        self._addresses = {
+            message.NAME: own_addresses(protocol.model, message.MODEL)
+            for message in protocol.messages
+        }
+
+    def sent(self, message: type[Message], frame_id: NDArray[np.uint32]) -> NDArray[np.bool_]:
+        """Which of these identifiers, some at least, have an address of the sender."""
+        sources = (frame_id & np.uint32(0xFF)).astype(np.int64)
+        if not self._addresses[message.NAME]:
+            self._addresses[message.NAME] = frozenset((int(sources[0]),))
+        return np.isin(sources, sorted(self._addresses[message.NAME]))
 
 
 class Formats:

@@ -31,10 +31,14 @@ class Identifiers:
     def __init__(self, protocol: Protocol) -> None:
         messages = keys_of(protocol)
         self._keys = np.fromiter(messages, np.uint32)
-        extended = self._keys[(self._keys & np.uint32(EXTENDED)) != 0]
+        # What is found by its PGN may come from any address, with any priority.
+        whole = {
+            key: each for key, each in messages.items() if key & EXTENDED and not each.MODEL.by_pgn
+        }
+        extended = np.fromiter(whole, np.uint32)
         self._rest = extended & _PRIORITY_MASK
         self._heads = extended >> np.uint32(ADDRESS_BITS)
-        self._extended = tuple(each for key, each in messages.items() if key & EXTENDED)
+        self._extended = tuple(whole.values())
         self._addresses = {
             node: {each.FRAME_ID & 0xFF for each in protocol.messages if node == each.SENDER}
             for node in nodes_of(protocol)
