@@ -15,6 +15,7 @@ from typedcan.databases.dbc import read_any, read_dbc
 from typedcan.databases.encoding import decode, find_encoding
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
+from typedcan.model.soundness import remarks
 
 SMALL = """VERSION ""
 
@@ -66,20 +67,49 @@ def file(folder: Path, data: bytes | str) -> Path:
         (b":::", ": is no DBC file"),
         ('VERSION ""\nnonsense here\n', ":2:1: this is no line of a DBC file"),
         (SMALL.replace("@1+ (1,0) [0|255] \"V\"", ""), ":5"),
-        (SMALL.replace("(1,0) [0|255] \"V\"", "(0,0) [0|255] \"V\""), ":5:1: One: its factor is 0"),
-        (SMALL.replace("(1,0) [0|255] \"V\"", "(1e999,0) [0|1] \"V\""), ":5:1: One: inf is no"),
+        (SMALL.replace("First: 8", "First: 99999"), ":4:1: First: no message has so many bytes"),
+        (SMALL.replace("0|8@", "0|100000000@"), ":5:1: One: no message has so many bits"),
         (SMALL.replace('"a comment"', '"a comment'), "a quote is opened and never closed"),
         (SMALL.replace("BO_ 1 First", "BO_ 4294967295 First"), ":4:1: First: 4294967295 is"),
         (SMALL.replace("BO_ 1 First", "BO_ 2048 First"), ":4:1: First: 2048 is no"),
         (SMALL + "SG_MUL_VAL_ 1 Two One 0-4294967295;\n", ":13:1: more than 1048576 multi"),
         ("VERSION \"\"\n" + "BO_ 1 A: 8 X\n" * 50_001, ":50002:1: more than 50000 messages"),
-        ("VERSION \"\"\nBU_: " + "A " * 600_000, ":2:1: the line is longer than"),
+        ("VERSION \"\"\nBU_: " + "A " * 2_100_000, ":2:1: the line is longer than"),
     ],
 )  # fmt: skip
 def test_a_file_that_is_no_dbc_says_so_in_one_line(
     tmp_path: Path, data: bytes | str, text: str
 ) -> None:
     assert text in refusal(file(tmp_path, data))
+
+
+@pytest.mark.parametrize("scale", ["(0,0)", "(1e999,0)", "(1,1e999)"])
+def test_a_signal_without_a_scaling_takes_no_other_with_it(scale: str, tmp_path: Path) -> None:
+    text = SMALL.replace('(1,0) [0|255] "V"', f'{scale} [0|1e999] "V"')
+    protocol = read_dbc(file(tmp_path, text))
+    assert [*remarks(protocol)] == ["First.One is left out: its factor is 0, or no finite number"]
+    assert "One" in [signal.name for signal in protocol.messages[0].signals]
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("kcd", '<Message id="1" name="M" length="100000000"/>'),
+        ("kcd", "<Signal name='S' offset='99999999' length='8'/>"),
+        ("sym", "[M]\nLen=100000000\n"),
+        ("sym", "[M]\nVar=S unsigned 0,99999999\n"),
+        ("arxml", "<FRAME-LENGTH>100000000</FRAME-LENGTH>"),
+        ("arxml", "<BASE-TYPE-SIZE>8</BASE-TYPE-SIZE>\n<LENGTH>100000000</LENGTH>"),
+        ("arxml", "<START-POSITION>99999999</START-POSITION>"),
+    ],
+)
+def test_sizes_that_no_message_has_are_refused_before_they_are_used(
+    name: str, text: str, tmp_path: Path
+) -> None:
+    path = tmp_path / f"x.{name}"
+    path.write_text(text)
+    with pytest.raises(ReadError, match="no message has so many bits"):
+        read_any(path)
 
 
 def test_a_missing_file_and_a_folder_are_refused(tmp_path: Path) -> None:

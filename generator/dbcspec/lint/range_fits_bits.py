@@ -25,7 +25,7 @@ def _fault(signal: Signal) -> str | None:
         return "the range 0~0 means none at all in a DBC file: give the real one"
     if signal.minimum >= signal.maximum:
         return f"the range {shown} does not ascend: correct it"
-    if signal.is_float:
+    if signal.is_float or not signal.factor:
         return None
     low, high = sorted(raw * signal.factor + signal.offset for raw in signal.raw_limits)
     if signal.minimum < low or signal.maximum > high:

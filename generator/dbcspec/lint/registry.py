@@ -33,6 +33,7 @@ from dbcspec.lint import (
     signal_in_message,
     signal_in_table,
     signal_inside_message,
+    signal_readable,
     signals_overlap,
     source_address,
     start_value_in_range,
@@ -51,6 +52,7 @@ from dbcspec.lint import (
 from dbcspec.lint.rule import Rule
 
 RULES: tuple[Rule, ...] = (
+    signal_readable.RULE,
     signals_overlap.RULE,
     branches_overlap.RULE,
     signal_inside_message.RULE,

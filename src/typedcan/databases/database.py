@@ -209,9 +209,9 @@ class _Builder:
     ) -> model.Signal:
         english, title = _texts(signal.comment)
         codes = codes_of(signal.choices or {})
-        factor, offset = scaling(signal, where)
+        factor, offset = scaling(signal)
         selector = signal.multiplexer_signal or ""
-        low, high = limits(signal, factor, offset, where)
+        low, high = limits(signal, factor, offset)
         return model.Signal(
             name=signal.name,
             title=title,

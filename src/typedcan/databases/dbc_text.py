@@ -25,18 +25,22 @@ _WORDS = frozenset(
 )
 _ONE_LINERS = frozenset({"VERSION", "BS_"})
 _LONGEST_STATEMENT = 10_000
+_LONGEST_LINE = 1 << 22
 _LONGEST_TEXT = 1 << 20
 _MOST_MESSAGES = 50_000
 _MOST_SELECTORS = 1 << 20
-_MOST_BITS = 8 * 1785
-"""Of the longest transfer that J1939 knows; no message has more."""
+_MOST_BYTES = 4095
+"""Of the longest transfer that ISO 15765-2 knows with a length of 12 bits."""
+
+MOST_BITS = 8 * _MOST_BYTES
+"""No message has more."""
 
 _MOST_DIGITS = 9
 
 
 _QUOTED_OR_COMMENT = re.compile(r'"(?:[^"\\]++|\\"|\\)*+"|//[^\n]*|"')
 _PLACED = re.compile(
-    r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)\s*\|\s*(\d+))?"
+    r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)(?:\s*\|\s*(\d+))?)?"
 )
 _OF_SIGNAL = re.compile(r"\b(?:VAL_|SIG_VALTYPE_)\s+(\d+)\s+(\w+)[^;]*;")
 _DEFINITION = re.compile(r'\bBA_DEF_\s+(?:\w+_\s+)?("[^"]*")\s+(\w+)([^;]*);')
@@ -96,8 +100,8 @@ class DbcText:
         if first not in _WORDS and not first.startswith("//"):
             raise ReadError(f"{self._name}: is no DBC file: it begins with {first[:20]!r}")
         for start, end in pairwise((0, *self._starts, len(self._text))):
-            if end - start > _LONGEST_TEXT:
-                raise ReadError(f"{self._where(start)}: the line is longer than {_LONGEST_TEXT}")
+            if end - start > _LONGEST_LINE:
+                raise ReadError(f"{self._where(start)}: the line is longer than {_LONGEST_LINE}")
 
     def _blank(self, match: re.Match[str]) -> str:
         whole = match[0]
@@ -142,9 +146,11 @@ class DbcText:
                 )
             if match[1]:
                 self._refuse_wide_identifier(match)
+                self._refuse_large(match, match[2], [match[4]], _MOST_BYTES, "bytes")
                 places.append(MessagePlace(int(match[1]), match[2], line))
             elif places:
-                self._refuse_far_bits(match)
+                numbers = [match[4], match[5]]
+                self._refuse_large(match, match[3], numbers, MOST_BITS, "bits")
                 places[-1].signals.append((match[3], line))
         return places
 
@@ -156,12 +162,13 @@ class DbcText:
             where = self._where(message.start())
             raise ReadError(f"{where}: {message[2]}: {message[1]} is no identifier of {bits} bits")
 
-    def _refuse_far_bits(self, signal: re.Match[str]) -> None:
-        """Numbers as large as such a signal's would fill the memory."""
-        numbers = [signal[4] or "0", signal[5] or "0"]
-        if any(len(each) > _MOST_DIGITS or int(each) > _MOST_BITS for each in numbers):
-            where = self._where(signal.start())
-            raise ReadError(f"{where}: {signal[3]}: no message has so many bits")
+    def _refuse_large(
+        self, place: re.Match[str], name: str, numbers: list[str | None], most: int, unit: str
+    ) -> None:
+        """Numbers as large as such a message's or signal's would fill the memory."""
+        given = [number for number in numbers if number]
+        if any(len(each) > _MOST_DIGITS or int(each) > most for each in given):
+            raise ReadError(f"{self._where(place.start())}: {name}: no message has so many {unit}")
 
     def _orphans(self) -> list[tuple[int, int, str]]:
         """Codes and types of signals that are in no message."""

@@ -9,16 +9,16 @@ from typing import Any
 
 from cantools.database.can import Signal
 
-from typedcan.model.errors import Location, ReadError
 from typedcan.model.layout import float_limits
 
 
-def scaling(signal: Signal, where: Location) -> tuple[Decimal, Decimal]:
-    """Factor and offset; raises `ReadError` for what is no finite number, and for a factor of 0."""
-    factor = _number(signal.conversion.scale, signal, where)
-    if not factor:
-        raise ReadError(f"{where}: {signal.name}: its factor is 0")
-    return factor, _number(signal.conversion.offset, signal, where)
+def scaling(signal: Signal) -> tuple[Decimal, Decimal]:
+    """Factor and offset; 0 and 0 where one of them is no finite number: nobody can read that."""
+    factor, offset = (
+        Decimal(repr(number)) for number in (signal.conversion.scale, signal.conversion.offset)
+    )
+    known = factor.is_finite() and offset.is_finite()
+    return (factor, offset) if known else (Decimal(0), Decimal(0))
 
 
 def start_value(signal: Signal, defined: Mapping[str, Any]) -> int:
@@ -33,20 +33,8 @@ def start_value(signal: Signal, defined: Mapping[str, Any]) -> int:
     return int(value) if finite and isinstance(value, int | float) else 0
 
 
-def _number(value: float, signal: Signal, where: Location) -> Decimal:
-    number = Decimal(repr(value))
-    if not number.is_finite():
-        raise ReadError(f"{where}: {signal.name}: {value} is no finite number")
-    return number
-
-
-def limits(
-    signal: Signal, factor: Decimal, offset: Decimal, where: Location
-) -> tuple[Decimal, Decimal]:
-    """Minimum and maximum; what the file leaves open is what the bits can hold.
-
-    Raises `ReadError` for what is no finite number.
-    """
+def limits(signal: Signal, factor: Decimal, offset: Decimal) -> tuple[Decimal, Decimal]:
+    """Minimum and maximum; what the file leaves open is what the bits can hold."""
     if signal.conversion.is_float:
         low, high = float_limits(signal.length)
     else:
@@ -55,12 +43,11 @@ def limits(
         low, high = sorted((raw * factor + offset, (raw + values - 1) * factor + offset))
     if not signal.minimum and not signal.maximum:  # [0|0], however it is written, is none
         return low, high
-    return (
-        low if _is_open(signal.minimum) else _number(signal.minimum or 0, signal, where),
-        high if _is_open(signal.maximum) else _number(signal.maximum or 0, signal, where),
-    )
+    return _given(signal.minimum, low), _given(signal.maximum, high)
 
 
-def _is_open(limit: float | None) -> bool:
-    """Whether a limit is not given, or too large for cantools, as of signals of 1600 bits."""
-    return limit is None or abs(limit) == math.inf
+def _given(limit: float | None, instead: Decimal) -> Decimal:
+    """A limit that is given, and not too large for cantools, as of signals of 1600 bits."""
+    if limit is None or not Decimal(repr(limit)).is_finite():
+        return instead
+    return Decimal(repr(limit))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -102,40 +102,56 @@ def plan_of(
         A reserved code is none that the signal can have.
     """
     signals = readable(message)
-    names = [signal.name for signal in signals]
+    names = {signal.name for signal in signals}
     for name in wanted or ():
         if name not in names:
-            raise SelectionError(f"{message.name} has no signal {name!r}; it has {names}")
-    selectors = {signal.multiplexer for signal in signals}
+            known = [signal.name for signal in message.signals if signal.name in names]
+            raise SelectionError(f"{message.name} has no signal {name!r}; it has {known}")
     codes = {signal.name: _codes(message, signal, reserved or {}) for signal in signals}
     infos = {signal.name: _info(signal, mode, codes[signal.name]) for signal in signals}
-    columns: list[SignalInfo] = []
+    asked = [
+        signal
+        for signal in message.signals
+        if signal.name in names and (wanted is None or signal.name in wanted)
+    ]
+    above = {signal.multiplexer for signal in signals}
+    selecting = {each.name: f"{each.name} (raw)" for each in signals if each.name in above}
     parts: list[Part | Wide] = []
-    selecting: dict[str, str] = {}
-    for signal in message.signals:
-        info = infos.get(signal.name)
-        if info and (wanted is None or signal.name in wanted):
-            columns.append(info)
-            parts.append(_part(message, signal, info, codes[signal.name] if info.scaled else {}))
-        if info and signal.name in selectors:
-            selecting[signal.name] = f"{signal.name} (raw)"
-            raw = replace(info, name=selecting[signal.name], scaled=False)
-            parts.append(_part(message, signal, raw, {}))
+    if message.length <= LONG:  # else no frame has all its bytes
+        parts = _parts(message, [infos[each.name] for each in asked], codes, selecting)
     loads, stacks = stacks_of(part for part in parts if isinstance(part, Part))
-    wide = tuple(part for part in parts if isinstance(part, Wide))
     return MessagePlan(
         message.name,
         message.frame_id,
         message.extended,
         message.length,
-        tuple(columns),
+        tuple(infos[signal.name] for signal in asked),
         loads,
         stacks,
-        wide,
+        tuple(part for part in parts if isinstance(part, Wide)),
         multiplexing_of(signals),
         selecting,
         message.by_pgn,
     )
+
+
+def _parts(
+    message: Message,
+    infos: Iterable[SignalInfo],
+    codes: Mapping[str, Mapping[int, State]],
+    selecting: Mapping[str, str],
+) -> list[Part | Wide]:
+    """What decodes the columns, and the raw values of the multiplexers."""
+    by_name = {signal.name: signal for signal in message.signals}
+    parts: list[Part | Wide] = []
+    for info in infos:
+        signal = by_name[info.name]
+        parts.append(_part(message, signal, info, codes[info.name] if info.scaled else {}))
+    for name, raw in selecting.items():
+        signal = by_name[name]
+        info = replace(_info(signal, Mode.RAW, {}), name=raw)
+        parts.append(_part(message, signal, info, {}))
+    return parts
 
 
 def _codes(message: Message, signal: Signal, reserved: Reserved) -> Mapping[int, State]:

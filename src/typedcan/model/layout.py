@@ -48,6 +48,8 @@ def unreadable(message: Message) -> list[tuple[Signal, str]]:
 
 def _unreadable(signal: Signal, message: Message, by_name: Mapping[str, Signal]) -> str:
     above: list[str] = []
+    if not signal.factor:
+        return "its factor is 0, or no finite number"
     while signal.name not in above:
         if first_bit(signal) + signal.length > 8 * message.length:
             which = f"{signal.name}, which selects it," if above else "it"

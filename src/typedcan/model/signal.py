@@ -90,7 +90,12 @@ class Signal:
 
     @property
     def raw_range(self) -> tuple[int, int]:
-        """The raw values of minimum and maximum, in ascending order, rounded inwards."""
+        """The raw values of minimum and maximum, in ascending order, rounded inwards.
+
+        With a factor of 0, all that the bits can hold.
+        """
+        if not self.factor:
+            return self.raw_limits
         low, high = sorted(
             ((self.minimum - self.offset) / self.factor, (self.maximum - self.offset) / self.factor)
         )
