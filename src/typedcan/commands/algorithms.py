@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from operator import attrgetter
+from typing import cast
 
 from typedcan.model.checksums.methods import Algorithm
 from typedcan.model.checksums.registry import Given
@@ -84,5 +85,4 @@ def _function(reference: str) -> Algorithm:
         raise CommandError(f"{module} has no {path}") from None
     if not callable(found):
         raise CommandError(f"{reference} is no function")
-    function: Algorithm = found
-    return function
+    return cast("Algorithm", found)

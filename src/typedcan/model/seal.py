@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from operator import itemgetter
-from typing import Any
 
 from typedcan.model.checksums.methods import Algorithm
 from typedcan.model.checksums.registry import WIDEST, AlgorithmError, Given, function_of
@@ -95,25 +94,25 @@ def _byte_writer(byte: int) -> Callable[[bytes, int], bytes]:
 
 
 def _cover(message: Message, checksum: Checksum) -> Callable[[bytes], bytes]:
-    covered = checksum.covered
-    signal = message.signal(checksum.signal)
-    write = bits_writer(signal, message.length)
-    first, last = covered[0], covered[-1]
-    pick: Any = itemgetter(slice(first, last + 1))
-    if covered != tuple(range(first, last + 1)):
-
-        def pick(payload: bytes) -> bytes:
-            return bytes(payload[number] for number in covered)
-
+    covered, signal = checksum.covered, message.signal(checksum.signal)
+    pick = _picker(covered)
     if not {bit // 8 for bit in bits(signal)}.isdisjoint(covered):
-        pick = _then(lambda payload: write(payload, 0), pick)
+        pick = _blanked(bits_writer(signal, message.length), pick)
     return _framed(message, checksum, pick)
 
 
-def _then(
-    first: Callable[[bytes], bytes], second: Callable[[bytes], bytes]
+def _picker(covered: tuple[int, ...]) -> Callable[[bytes], bytes]:
+    first, end = covered[0], covered[-1] + 1
+    if covered == tuple(range(first, end)):
+        return itemgetter(slice(first, end))
+    return lambda payload: bytes(payload[number] for number in covered)
+
+
+def _blanked(
+    write: Callable[[bytes, int], bytes], pick: Callable[[bytes], bytes]
 ) -> Callable[[bytes], bytes]:
-    return lambda payload: second(first(payload))
+    """What is picked where the checksum itself is 0."""
+    return lambda payload: pick(write(payload, 0))
 
 
 def _framed(

@@ -22,7 +22,7 @@ _FORBIDDEN = Text(
 
 
 class CounterAllowed(Watcher):
-    """Looks for counters at or above their modulus."""
+    """Looks for values that a counter does not run through."""
 
     def __init__(
         self, findings: Findings, counters: Sequence[tuple[type[Message], Counter]]
