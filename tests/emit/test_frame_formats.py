@@ -19,6 +19,7 @@ from typedcan.model.protocol import Message, Protocol
 
 FIXTURES = Path(__file__).parents[1] / "fixtures"
 FORMATS = read_dbc(FIXTURES / "databases" / "formats.dbc")
+GROUPS = read_dbc(FIXTURES / "databases" / "groups.dbc")
 
 
 def _as_dbc(protocol: Protocol, folder: Path) -> Path:
@@ -39,17 +40,28 @@ def _as_spec(protocol: Protocol, folder: Path) -> Path:
 
 
 def _facts(message: Message) -> tuple[object, ...]:
-    return (message.name, message.length, message.frame_kind, message.senders)
+    by_pgn = message.extended, message.by_pgn
+    return (message.name, message.length, message.frame_kind, message.senders, by_pgn)
 
 
 @pytest.mark.parametrize("written", [_as_dbc, _as_matrix, _as_spec])
+@pytest.mark.parametrize("protocol", [FORMATS, GROUPS], ids=["formats", "groups"])
 def test_what_is_written_says_format_length_and_senders_of_each_message(
-    written: Callable[[Protocol, Path], Path], tmp_path: Path
+    written: Callable[[Protocol, Path], Path], protocol: Protocol, tmp_path: Path
 ) -> None:
-    again = open_side(str(written(FORMATS, tmp_path))).protocol
-    assert list(map(_facts, again.messages)) == list(map(_facts, FORMATS.messages))
-    rules = {item.rule for item in compare(FORMATS, again)}
-    assert not rules & {"message-frame-format-same", "message-sender-same", "message-length-same"}
+    again = open_side(str(written(protocol, tmp_path))).protocol
+    assert list(map(_facts, again.messages)) == list(map(_facts, protocol.messages))
+    rules = {item.rule for item in compare(protocol, again)}
+    kept = {"message-frame-format-same", "frame-format-same", "message-sender-same"}
+    assert not rules & {*kept, "message-length-same"}
+
+
+def test_a_spec_says_of_each_message_how_it_is_found(tmp_path: Path) -> None:
+    written = _as_spec(GROUPS, tmp_path)
+    assert "frame_format: J1939PG" in (written / "standard.yaml").read_text("utf-8")
+    messages = (written / "messages.yaml").read_text("utf-8")
+    assert messages.count("by_pgn: no") == 1  # Whole; that of 11 bits is never found so
+    assert "by_pgn: yes" not in messages
 
 
 def test_another_reader_finds_the_same_formats_in_the_dbc(tmp_path: Path) -> None:
@@ -58,6 +70,11 @@ def test_another_reader_finds_the_same_formats_in_the_dbc(tmp_path: Path) -> Non
     (theirs,) = loaded.values()
     found = {frame.name: frame.is_fd for frame in theirs.frames}
     assert found == {message.name: message.is_fd for message in FORMATS.messages}
+    loaded = canmatrix.formats.loadp(str(_as_dbc(GROUPS, tmp_path)))
+    assert loaded
+    (groups,) = loaded.values()
+    by_pgn = {frame.name: bool(frame.is_j1939) for frame in groups.frames}
+    assert by_pgn == {message.name: message.by_pgn for message in GROUPS.messages}
     assert theirs.frame_by_name("Between").transmitters == ["GATE", "ECU"]
 
 

@@ -6,6 +6,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
+from typedcan.model.j1939 import pgn
 from typedcan.model.layout import float_limits
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Message, Signal
@@ -64,7 +65,8 @@ def message_doc(message: Message, said: Sequence[str], needed: Sequence[str]) ->
     """
     when = f", every {message.period} ms" if message.period else ""
     while_ = f", sent {message.condition}" if message.condition else ""
-    facts = f"Identifier 0x{message.frame_id:08X}{_route(message)}{when}{while_}."
+    found = f", found by its PGN 0x{pgn(message.frame_id):04X}" if message.by_pgn else ""
+    facts = f"Identifier 0x{message.frame_id:08X}{found}{_route(message)}{when}{while_}."
     if message.reference:
         facts += f" {message.reference}."
     title = f"{line(message.title)}.\n\n    " if message.title else ""
