@@ -34,9 +34,9 @@ from swapcan.wire import (
     message_type as message_type,
 )
 from swapcan.wire import SwapcanError as SwapcanError
+from typedcan.model.errors import DatabaseError as DatabaseError
 from typedcan.wire.errors import (
     ChecksumError as ChecksumError,
-    DatabaseError as DatabaseError,
     DecodeError as DecodeError,
     EncodeError as EncodeError,
     LengthError as LengthError,

@@ -32,10 +32,18 @@ class Codec(codec.Codec):
         verified.
     protocol
         Another protocol whose package `dbcspec generate` wrote.
+    accelerated
+        Whether generated functions may move the bits; cantools' formats do the same.
     """
 
-    def __init__(self, algorithms: Given | None = None, protocol: Protocol = PROTOCOL) -> None:
-        super().__init__(protocol, algorithms)
+    def __init__(
+        self,
+        algorithms: Given | None = None,
+        protocol: Protocol = PROTOCOL,
+        *,
+        accelerated: bool = True,
+    ) -> None:
+        super().__init__(protocol, algorithms, accelerated=accelerated)
 
 
 class Link(link.Link):

@@ -146,6 +146,7 @@ class _Trial:
 
     def __init__(self, codec: Codec, entry: Entry, oracle: Oracle) -> None:
         self._codec = codec
+        self._plain = Codec(codec.protocol, accelerated=False)
         self._entry = entry
         self._kind = entry.type
         self._oracle = oracle
@@ -155,12 +156,23 @@ class _Trial:
         """The first thing that is wrong, if any."""
         for data in payloads(self._kind):
             values = self._oracle.values(data, [*self._fields])
-            message = self._entry.decode(self._entry.packer.unpack(data))
-            if fault := self._decoded(message, values) or self._encoded(message, data, values):
+            message = self._entry.decode(data)
+            fault = self._decoded(message, values) or self._encoded(message, data, values)
+            if fault := fault or self._straight(message, data):
                 yield f"{self._kind.NAME}: {fault} in {data.hex()}"
                 return
         if fault := self._default():
             yield f"{self._kind.NAME}: {fault}"
+
+    def _straight(self, message: Message, data: bytes) -> str:
+        """What generated functions do otherwise than cantools' formats and the fields."""
+        if self._entry.straight is None:
+            return ""
+        other = self._entry.straight.decode(data)
+        if type(other) is not type(message) or repr(other) != repr(message):
+            return f"straight lines make {other!r}, not {message!r}"
+        mine, plain = (_sent(codec, message) for codec in (self._codec, self._plain))
+        return "" if mine == plain else f"sent as {mine} in straight lines, as {plain} else"
 
     def _decoded(self, message: Message, values: Values) -> str:
         """What is wrong with the values of the message in a payload."""
@@ -202,7 +214,7 @@ class _Trial:
         except EncodeError:
             return ""  # what is sent of no value is outside of the range
         return self._decoded(
-            self._entry.decode(self._entry.packer.unpack(data)),
+            self._entry.decode(data),
             self._oracle.values(data, [*self._fields]),
         )
 
@@ -230,6 +242,14 @@ def _branches(kind: type[Message]) -> Iterator[dict[Signal, int]]:
             selected[by_name[inner.multiplexer]] = inner.selectors[0]
             inner = by_name[inner.multiplexer]
         yield selected
+
+
+def _sent(codec: Codec, message: Message) -> str:
+    """The payload that a message is sent as, or why it is not."""
+    try:
+        return codec.encode(message, counter=0).hex()
+    except Exception as error:  # noqa: BLE001 - both ways have to raise the same
+        return one_line(error)
 
 
 def _with_codes(data: bytes, codes: Mapping[Signal, int]) -> bytes:

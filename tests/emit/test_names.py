@@ -30,7 +30,8 @@ CASES = Path(__file__).parent.parent / "fixtures" / "cases"
 
 AWKWARD = """
     Field MODEL ENUMS IntEnum _fields_of _MODELS _new_X _decode_X _codes_Gear_8 _BRANCH_1 dataclass
-    Code2 Code8 PROTOCOL DECODERS Message Message_ SignalState messages enums model decoders GEAR_8
+    Code2 Code8 PROTOCOL CODECS StraightLine raw_of Message
+    Message_ SignalState messages enums model codec GEAR_8
     Gear Gear_8 gear GEAR GearCodes gear_codes to_raw FIELDS NAME name value _is_there __class__
     __name__ __file__ __init__ __x self None True class class_ class_2 int float str type object
     Mapping ClassVar Any annotations mro _1 _2 x X x_2 X_2 x_ Type lambda match _ __ v m
@@ -188,7 +189,8 @@ def names_of(text: str) -> set[str]:
     return {
         name
         for name in found
-        if not re.match("_(codes|new|decode|BRANCH)_", name) and not name.startswith("__")
+        if not re.match("_(codes|new|decode|encode|raw|BRANCH)_", name)
+        and not name.startswith("__")
     }
 
 

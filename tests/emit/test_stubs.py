@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from enum import IntEnum
 from pathlib import Path
 from types import ModuleType
-from typing import Literal
+from typing import Any, Literal
 
 import cantools
 import pytest
@@ -25,6 +25,7 @@ from swapcan import SignalState
 from swapcan import messages as m
 from swapcan.messages import MESSAGES
 from typedcan.model.protocol import Protocol, ValueTable
+from typedcan.wire.codec import Codec
 from typedcan.wire.message import Code2, Code5
 from typedcan.wire.packing import packer_of
 
@@ -46,9 +47,9 @@ def others(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def other(others: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
-    """The decoders of the first made-up protocol, imported."""
+    """The first made-up protocol, imported."""
     monkeypatch.syspath_prepend(str(others))
-    yield importlib.import_module("othercar._generated.decoders")
+    yield importlib.import_module("othercar._generated.protocol")
     for name in [name for name in sys.modules if name.split(".")[0] in PACKAGES]:
         del sys.modules[name]
 
@@ -173,19 +174,21 @@ def test_a_label_in_another_language_stands_beside_its_member(root: Path) -> Non
     assert '    SELF_CIRCULATION = 3\n    """自循环"""' in source
 
 
-def test_the_decoders_of_another_protocol_agree_with_another_reader(other: ModuleType) -> None:
+@pytest.mark.parametrize("accelerated", [True, False])
+def test_what_another_protocol_decodes_agrees_with_another_reader(
+    other: ModuleType, *, accelerated: bool
+) -> None:
     dbc = cantools.database.load_string(emit_dbc(OTHER), "dbc")
     assert isinstance(dbc, Database)
-    by_name = {kind.NAME: (kind, decode) for kind, decode in other.DECODERS.items()}
+    codec = Codec(other.PROTOCOL, accelerated=accelerated)
     for payload, expected in (
         ("FF F3 07 60 EA 5A 02 09", (-2.5625, 1.5, 7, 60000, "Z", 2, 9)),
         ("80 0F 01 02 00 FF 03 FF", (-130.5, 7.5, 1, 2, SignalState.INVALID, 3, 255)),
         # A code of a measured value is a value all the same.
         ("7F F0 00 01 00 42 00 00", (125.4375, 0.0, 0, 1, 66, 0, 0)),
     ):
-        wheels, decode = by_name["Wheels"]
-        packer = packer_of(wheels.MODEL)
-        decoded = decode(packer.unpack(bytes.fromhex(payload)))
+        wheels = other.PROTOCOL.message("Wheels")
+        decoded: Any = codec.decode(wheels, bytes.fromhex(payload))
         assert isinstance(decoded, wheels)
         assert tuple(getattr(decoded, name) for name in wheels.FIELDS) == expected
         assert (type(decoded.level), type(decoded.slot)) == (float, int)
@@ -197,7 +200,7 @@ def test_the_messages_of_another_protocol_give_the_bytes_worked_out_by_hand(
 ) -> None:
     dbc = cantools.database.load_string(emit_dbc(OTHER), "dbc")
     assert isinstance(dbc, Database)
-    kinds = {kind.NAME: kind for kind in other.DECODERS}
+    kinds = {kind.NAME: kind for kind in other.PROTOCOL.messages}
 
     def payload(name: str, **values: object) -> str:
         packer = packer_of(kinds[name].MODEL)

@@ -60,7 +60,7 @@ def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path:
             "model.py",
             "enums.py",
             "messages.py",
-            "decoders.py",
+            "codec.py",
             "model.py",
             "protocol.json",
             "protocol.py",

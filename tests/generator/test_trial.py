@@ -23,7 +23,7 @@ Spoil = Callable[[Files], None]
 
 
 def broken_code(files: Files) -> None:
-    files["gear_8/decoders.py"] += b"\nraise KeyError('no such thing')\n"
+    files["gear_8/codec.py"] += b"\nraise KeyError('no such thing')\n"
 
 
 def no_python(files: Files) -> None:
@@ -31,9 +31,9 @@ def no_python(files: Files) -> None:
 
 
 def other_values(files: Files) -> None:
-    text = files["gear_8/decoders.py"].decode()
-    assert "_codes_Gear_8[v[0]]" in text
-    files["gear_8/decoders.py"] = text.replace("_codes_Gear_8[v[0]]", "v[0] ^ 1").encode()
+    text = files["gear_8/codec.py"].decode()
+    assert "_codes_Gear_8[d[0]]" in text
+    files["gear_8/codec.py"] = text.replace("_codes_Gear_8[d[0]]", "d[0] ^ 1").encode()
 
 
 def other_bits(files: Files) -> None:
@@ -86,10 +86,10 @@ def test_a_branch_is_tried_however_seldom_it_is_selected(tmp_path: Path) -> None
     )
     files = foreign_artifacts(open_side(str(path)).protocol, "rare")
     try_package(files, "rare", "rare.dbc")
-    text = files["rare/decoders.py"].decode()
+    text = files["rare/codec.py"].decode()
     assert "* 2.0" in text
-    files["rare/decoders.py"] = text.replace("* 2.0", "* 3.0").encode()
-    with pytest.raises(ReadError, match="Rare: value is"):
+    files["rare/codec.py"] = text.replace("* 2.0", "* 3.0").encode()
+    with pytest.raises(ReadError, match="Rare: straight lines make"):
         try_package(files, "rare", "rare.dbc")
 
 

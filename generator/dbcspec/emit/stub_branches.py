@@ -37,7 +37,7 @@ class Branches:
         """The lines that set a field of a message."""
         lines = [f"    {target} = None"] if when else []
         for depth, (index, values) in enumerate(when, start=1):
-            lines.append(f"{'    ' * depth}if v[{index}] in {self._names[values]}:")
+            lines.append(f"{'    ' * depth}if v{index} in {self._names[values]}:")
         return "\n".join((*lines, assigned(target, value, len(when) + 1)))
 
 

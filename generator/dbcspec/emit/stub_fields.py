@@ -99,10 +99,10 @@ def _default(signal: Signal, kind: Kind, names: StubNames) -> str:
         enum = names.enum_of(signal.value_table)
         return f"{enum}.{member}" if member else str(raw)
     if kind is Kind.FLOAT:
-        return _literal(_physical(signal, kind, raw))
+        return literal(_physical(signal, kind, raw))
     if raw in _states(signal):
         return f"SignalState.{_states(signal)[raw]}"
-    return _literal(_physical(signal, kind, raw))
+    return literal(_physical(signal, kind, raw))
 
 
 def _statement(signal: Signal) -> str:
@@ -124,7 +124,7 @@ def _physical(signal: Signal, kind: Kind, raw: int) -> float:
     return raw * factor + offset
 
 
-def _literal(value: float) -> str:
+def literal(value: float) -> str:
     """A number as the formatter wants it."""
     return repr(value).replace("e+", "e")
 
@@ -138,12 +138,12 @@ def _expression(signal: Signal, kind: Kind, raw: str, table: str) -> str:
         return value
     factor, offset = _scaling(signal, kind)
     if factor != 1:
-        value = f"{raw} * {_literal(factor)}"
+        value = f"{raw} * {literal(factor)}"
     elif isinstance(factor, float):
         value = f"float({raw})"
     if offset:
         start = raw if factor == 1 else value
-        value = f"{start} {'-' if offset < 0 else '+'} {_literal(abs(offset))}"
+        value = f"{start} {'-' if offset < 0 else '+'} {literal(abs(offset))}"
     for code, state in reversed(_states(signal).items()) if kind is not Kind.FLOAT else ():
         value = f"{state} if {raw} == {code} else {value}"
     return value

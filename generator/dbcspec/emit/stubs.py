@@ -1,8 +1,11 @@
-"""The model to typed Python: enums, message classes, and the functions that decode them fast."""
+"""The model to typed Python: enums, message classes, and functions that move their bits fast."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from dbcspec.emit.stub_branches import Branches, assigned, called, declared
+from dbcspec.emit.stub_codec import can_decode, can_encode, decoding, encoding
 from dbcspec.emit.stub_docs import enum_doc, line, message_doc, quote
 from dbcspec.emit.stub_fields import (
     StubField,
@@ -45,11 +48,17 @@ def emit_stubs(protocol: Protocol) -> dict[str, str]:
         "declared": declared,
         "called": called,
         "head": _head,
+        "names": names,
+        "straight": [(message, fields) for message, fields in stubs if can_decode(message, fields)],
+        "can_encode": can_encode,
+        "decoding": decoding,
+        "encoding": encoding,
+        "entry": _entry(names),
         "receivers": _receivers,
         "binding": _binding(protocol),
         **_enum_context(names),
     }
-    modules = ("__init__", "model", "enums", "messages", "decoders", "protocol")
+    modules = ("__init__", "model", "enums", "messages", "codec", "protocol")
     rendered = {f"{name}.py": template(f"{name}.py.j2").render(context) for name in modules}
     return {**rendered, MODEL_FILE: to_json(protocol)}
 
@@ -96,12 +105,30 @@ def _import_order(name: str) -> tuple[bool, str]:
     return name[0].islower(), name.lower()
 
 
-def _head(name: str) -> str:
-    """The first lines of the decoder function of a class."""
-    line = f"def _decode_{name}(v: Sequence[int]) -> messages.{name}:"
+def _head(name: str, arguments: str, result: str) -> str:
+    """The first lines of a function."""
+    line = f"def {name}({arguments}) -> {result}:"
     if len(line) <= _LONGEST_LINE:
         return line
-    return f"def _decode_{name}(\n    v: Sequence[int],\n) -> messages.{name}:"
+    line = f"def {name}(\n    {arguments},\n) -> {result}:"
+    return line if "," not in arguments else line.replace(",\n)", "\n)")
+
+
+def _entry(names: StubNames) -> Callable[[Message, list[StubField]], str]:
+    """Writes which functions a class has."""
+
+    def entry(message: Message, fields: list[StubField]) -> str:
+        name = names.class_of(message)
+        encode = f"_encode_{name}" if can_encode(message, fields) else "None"
+        line = f"    messages.{name}: StraightLine(_decode_{name}, {encode}),"
+        if len(line) <= _LONGEST_LINE:
+            return line
+        line = f"        _decode_{name}, {encode}"
+        if len(line) > _LONGEST_LINE:
+            line = f"        _decode_{name},\n        {encode},"
+        return f"    messages.{name}: StraightLine(\n{line}\n    ),"
+
+    return entry
 
 
 def _doc(message: Message, fields: list[StubField]) -> str:

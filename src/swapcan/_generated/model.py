@@ -5,7 +5,7 @@ From spec 603cea9e902e216f; change the spec, not this file.
 
 from __future__ import annotations
 
-from typedcan.wire.package import read_model
+from typedcan.model.package import read_model
 
 from . import DIGEST
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typedcan.wire.protocol import bind
 
 from . import messages
-from .decoders import DECODERS
+from .codec import CODECS
 from .model import MODEL
 
-PROTOCOL = bind(MODEL, messages.MESSAGES, DECODERS)
+PROTOCOL = bind(MODEL, messages.MESSAGES, CODECS)

@@ -30,6 +30,10 @@ class ReadError(TypedcanError):
     """A file or a configuration cannot be used: one line that says which and why."""
 
 
+class DatabaseError(TypedcanError):
+    """The model and the generated code of a package do not belong together."""
+
+
 def one_line(error: BaseException) -> str:
     """The text of an error and of its cause, in one line."""
     texts = [_text(error)]

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import chain
 from typing import Any, overload
 
 import can
 
 from typedcan.model.checksums.registry import Given
 from typedcan.model.j1939 import sent_identifier
-from typedcan.model.protection import Counter
 from typedcan.model.protocol import FD_LENGTHS, LONGEST_CLASSIC
 from typedcan.model.seal import seals_of
-from typedcan.wire.acting import safe_codes
 from typedcan.wire.database import Database, database
 from typedcan.wire.errors import (
     DecodeError,
-    EncodeError,
     SendingError,
     UnknownFrameError,
     UnknownMessageError,
@@ -25,6 +23,7 @@ from typedcan.wire.errors import (
 from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protocol import Protocol
 from typedcan.wire.reader import Reader
+from typedcan.wire.writer import Writer
 
 
 class Codec:
@@ -41,15 +40,27 @@ class Codec:
         int, or a name that is known. A checksum that the standard leaves open is sent as 0 without
         one, and not verified; a message with another one is not sent.
 
+    accelerated
+        Whether generated functions may move the bits, which do the same as cantools' formats: the
+        generator has held them against each other.
+
     Raises
     ------
     AlgorithmError
         No message has an algorithm of a name that is given, or what is given is none.
     """
 
-    def __init__(self, protocol: Protocol, algorithms: Given | None = None) -> None:
+    def __init__(
+        self,
+        protocol: Protocol,
+        algorithms: Given | None = None,
+        *,
+        accelerated: bool = True,
+    ) -> None:
         self.protocol = protocol
         self._seals = seals_of(protocol.model.messages, algorithms or {})
+        self._accelerated = accelerated
+        self._writers: dict[type[Message], Writer] = {}
 
     @cached_property
     def _database(self) -> Database:
@@ -58,7 +69,10 @@ class Codec:
     @cached_property
     def _by_type(self) -> Mapping[type[Message], Reader]:
         entries = self._database.by_type
-        return {kind: Reader(each, self._seals.get(kind.NAME)) for kind, each in entries.items()}
+        return {
+            kind: Reader(each, self._seals.get(kind.NAME), accelerated=self._accelerated)
+            for kind, each in entries.items()
+        }
 
     @cached_property
     def readers(self) -> Mapping[int, Reader]:
@@ -106,49 +120,14 @@ class Codec:
         again has the old one. With ``safe`` signals with codes that act get their safe code,
         whatever the message has. Raises `EncodeError` for a value that cannot be sent.
         """
-        kind = type(message)
-        raw = message.to_raw()
-        if safe:
-            raw.update(safe_codes(kind))
-        if kind.COUNTER:
-            self._count(message, raw, kind.COUNTER, counter)
-        checksum = kind.CHECKSUM
-        if checksum is None:
-            return self._packed(message, raw)
-        if renew:
-            raw[checksum.signal] = 0
-        data = self._packed(message, raw)
-        given = None if renew else getattr(message, kind.field_of(checksum.signal).name)
-        return self._sealed(kind, data) if given is None else data
+        writer = self._writers.get(type(message)) or self._writer(type(message))
+        return writer.payload(message, counter, renew=renew, safe=safe)
 
-    def _packed(self, message: Message, raw: Mapping[str, int]) -> bytes:
-        kind = type(message)
-        try:
-            return self._database.by_type[kind].packer.pack(raw)
-        except ValueError as error:
-            names = {part.dbc_name: part.name for part in kind.FIELDS.values()}
-            field = names[str(error)]
-            problem = "shares bits with another signal, whose value needs them otherwise"
-            raise EncodeError(kind.NAME, field, getattr(message, field), problem) from None
-
-    def _count(
-        self, message: Message, raw: dict[str, int], runs: Counter, counter: int | None
-    ) -> None:
-        """Fill in the alive counter; where neither has a value, the first one."""
-        if counter is not None:
-            raw[runs.signal] = counter
-        elif runs.first and getattr(message, type(message).field_of(runs.signal).name) is None:
-            raw[runs.signal] = runs.first
-
-    def _sealed(self, kind: type[Message], data: bytes) -> bytes:
-        """The payload with its checksum, or as it is where the standard leaves that open."""
-        checksum, seal = kind.CHECKSUM, self._seals.get(kind.NAME)
-        if seal:
-            return seal.filled(data)
-        if checksum and not checksum.is_open:
-            problem = f"nothing here computes {checksum.algorithm!r}: give Codec that algorithm"
-            raise EncodeError(kind.NAME, kind.field_of(checksum.signal).name, None, problem)
-        return data
+    def _writer(self, kind: type[Message]) -> Writer:
+        entry = self.reader(kind).entry
+        seal = self._seals.get(kind.NAME)
+        self._writers[kind] = Writer(entry, seal, accelerated=self._accelerated)
+        return self._writers[kind]
 
     def frame(
         self,
@@ -204,16 +183,25 @@ class Codec:
         not, `DecodeError` for such a class, `LengthError` for a payload of another length, and
         `ChecksumError`, unless ``verify`` is False.
         """
+        reader = self._known.get(frame_id) if extended is None else None
+        if reader is None:
+            reader = self._find(frame_id, data, extended=extended)
+        if len(data) != reader.length or (verify and reader.verify and not reader.verify(data)):
+            data = reader.payload(data, verify=verify)
+        return reader.decode(data)
+
+    @cached_property
+    def _known(self) -> Mapping[int | type[Message], Reader]:
+        """By what a message is asked for where no width of the identifier is given."""
+        readers = (self.standard_readers, self.readers, self._by_type)
+        return dict(chain.from_iterable(each.items() for each in readers))
+
+    def _find(self, frame_id: int | type[Message], data: bytes, *, extended: bool | None) -> Reader:
         if isinstance(frame_id, type):
             try:
-                reader = self.reader(frame_id)
+                return self.reader(frame_id)
             except UnknownMessageError as error:
                 raise DecodeError(getattr(frame_id, "FRAME_ID", 0), data, str(error)) from None
-        else:
-            reader = self._find(frame_id, extended=extended)
-        return reader.decode(reader.payload(data, verify=verify))
-
-    def _find(self, frame_id: int, *, extended: bool | None) -> Reader:
         reader = None if extended is False else self.readers.get(frame_id)
         if reader is None and not extended:
             reader = self.standard_readers.get(frame_id)

@@ -2,35 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 from typedcan.model.j1939 import ByPgn, address_in
 from typedcan.model.layout import bits_reader
 from typedcan.model.protocol import Aspect
-from typedcan.wire.message import Message
+from typedcan.wire.decoding import decoder_of
+from typedcan.wire.message import Message, StraightLine
 from typedcan.wire.packing import Packer, packer_of
 from typedcan.wire.protocol import Protocol
 
-Decoder = Callable[[Sequence[int]], Message]
-"""Raw values, in the order of the class's ``FIELDS``, to a message."""
 
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Entry:
-    """A message class with what packs its bits and what makes it from raw values.
+    """A message class with what moves its bits.
 
-    ``counter`` reads the alive counter alone, where there is one; ``is_fd`` says that it has CAN FD
-    frames, None where the protocol says nothing of formats; ``source_address`` is its sender's.
+    Parameters
+    ----------
+    straight
+        Its generated functions, where there are some.
+    counter
+        Reads the alive counter alone, where there is one.
+    is_fd
+        Whether it has CAN FD frames, None where the protocol says nothing of formats.
+    source_address
+        Its sender's, on J1939.
     """
 
     type: type[Message]
-    packer: Packer
-    decode: Decoder
+    straight: StraightLine | None
     counter: Callable[[bytes], int] | None
     is_fd: bool | None
     source_address: int
+
+    @cached_property
+    def packer(self) -> Packer:
+        """What packs and unpacks its signals; made when it is needed."""
+        return packer_of(self.type.MODEL)
+
+    @cached_property
+    def decode(self) -> Callable[[bytes], Message]:
+        """What makes a message of a payload, by cantools' formats."""
+        unpack, make = self.packer.unpack, decoder_of(self.type)
+        return lambda data: make(unpack(data))
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +81,7 @@ def _entry(message: type[Message], protocol: Protocol) -> Entry:
     counter = message.COUNTER and message.MODEL.signal(message.COUNTER.signal)
     return Entry(
         type=message,
-        packer=packer_of(message.MODEL),
-        decode=protocol.decoders[message],
+        straight=protocol.codecs.get(message),
         counter=bits_reader(counter, message.LENGTH) if counter else None,
         is_fd=message.MODEL.is_fd if Aspect.FRAME_FORMATS in protocol.model.carries else None,
         source_address=address_in(protocol.model, message.SENDER),

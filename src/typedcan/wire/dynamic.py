@@ -13,7 +13,6 @@ from typedcan.model.layout import readable
 from typedcan.model.naming import member_names
 from typedcan.model.soundness import remark, with_unique_names
 from typedcan.wire.binding import fields_of, selected_of
-from typedcan.wire.decoding import decoder_of
 from typedcan.wire.fields import Field
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, bind
@@ -32,7 +31,7 @@ def typed_protocol(protocol: model.Protocol) -> Protocol:
     protocol = with_unique_names(protocol)
     codes = {table.name: _enum(table) for table in enums(protocol.messages)}
     classes = [_message_class(message, codes) for message in protocol.messages]
-    return bind(protocol, classes, {kind: decoder_of(kind) for kind in classes})
+    return bind(protocol, classes, {})
 
 
 def _enum(table: model.ValueTable) -> type[IntEnum]:

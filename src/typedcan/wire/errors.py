@@ -79,9 +79,5 @@ class ReceiveTimeoutError(TypedcanError, TimeoutError):
         super().__init__(f"no message within {timeout:g} s")
 
 
-class DatabaseError(TypedcanError):
-    """The DBC and the generated code of this package do not belong together."""
-
-
 class SendingError(TypedcanError, ValueError):
     """A message that a node may not send, or cannot send in the way it was asked to."""

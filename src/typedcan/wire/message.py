@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from enum import IntEnum
+from functools import partial
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 from typedcan.model import protocol as model
 from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
@@ -48,9 +49,11 @@ __all__ = [
     "NumberField",
     "PhysicalField",
     "SignalState",
+    "StraightLine",
     "Value",
     "code_table",
     "draft_of",
+    "raw_of",
 ]
 
 
@@ -124,6 +127,21 @@ class Message:
 
 MessageT = TypeVar("MessageT", bound=Message)
 MessageT_co = TypeVar("MessageT_co", bound=Message, covariant=True)
+
+
+class StraightLine(NamedTuple):
+    """Generated functions of a message: what its payload says, and its payload.
+
+    The second, if one can be written, takes the alive counter too, None for the message's own.
+    """
+
+    decode: Callable[[bytes], Message]
+    encode: Callable[[Any, int | None], bytes] | None
+
+
+def raw_of(message: type[Message]) -> tuple[Callable[[object], int], ...]:
+    """What turns a value of each field into the raw one, or raises `EncodeError`."""
+    return tuple(partial(field.to_raw, message.NAME) for field in message.FIELDS.values())
 
 
 def draft_of(message: type[Message]) -> type[Any]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from typedcan.model import protocol as model
 from typedcan.model.transfers.parts import Part, Parts
 from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
-from typedcan.wire.message import Message
+from typedcan.wire.message import Message, StraightLine
 
 
 class FieldRef(NamedTuple):
@@ -122,8 +122,8 @@ class Protocol:
     name, digest, nodes
         Of the model: its name, what changes whenever anything of it changes, the names of all
         nodes.
-    messages, decoders
-        The message classes, and what makes each from its raw values.
+    messages, codecs
+        The message classes, and the generated functions of those that have them.
     conditional
         The messages that have a period but are sent only while a condition holds.
     transfers, requests
@@ -135,7 +135,7 @@ class Protocol:
     digest: str
     nodes: tuple[str, ...]
     messages: tuple[type[Message], ...]
-    decoders: Mapping[type[Message], Callable[[Sequence[int]], Message]]
+    codecs: Mapping[type[Message], StraightLine]
     conditional: tuple[type[Message], ...]
     transfers: tuple[Transfer, ...]
     requests: tuple[Request, ...]
@@ -179,7 +179,7 @@ class Protocol:
 def bind(
     protocol: model.Protocol,
     messages: Sequence[type[Message]],
-    decoders: Mapping[type[Message], Callable[[Sequence[int]], Message]],
+    codecs: Mapping[type[Message], StraightLine],
 ) -> Protocol:
     """A protocol of the model with its message classes; they are in the model's order."""
     classes = {kind.MODEL.name: kind for kind in messages}
@@ -194,7 +194,7 @@ def bind(
         digest=protocol.digest,
         nodes=tuple(node.name for node in protocol.nodes),
         messages=tuple(messages),
-        decoders=decoders,
+        codecs=codecs,
         conditional=tuple(
             kind
             for kind in messages

@@ -5,10 +5,6 @@ from __future__ import annotations
 from typedcan.model.seal import Seal
 from typedcan.wire.database import Entry
 from typedcan.wire.errors import ChecksumError, LengthError
-from typedcan.wire.message import Message
-
-_KEPT = 256
-"""How many messages are kept: as many as a counter of a byte has values."""
 
 
 class Reader:
@@ -22,11 +18,16 @@ class Reader:
         The message.
     seal
         What makes the checksum; without it none is verified.
+    accelerated
+        Whether a generated function may decode.
 
     Attributes
     ----------
-    kind, length, frame_length
-        The message class, the bytes that a payload must have, and those of a filled-up frame.
+    decode
+        Makes the message of a payload of full length: there is none that cannot be decoded.
+    entry, kind, length, frame_length
+        What was given, the message class, the bytes that a payload must have, and those of a
+        filled-up frame.
     other_format
         Whether it is a CAN FD frame that would be one of another format; None where none is.
     verify, counter
@@ -35,11 +36,10 @@ class Reader:
     """
 
     __slots__ = (
-        "_decode",
-        "_decoded",
         "_seal",
-        "_unpack",
         "counter",
+        "decode",
+        "entry",
         "frame_length",
         "kind",
         "length",
@@ -47,11 +47,11 @@ class Reader:
         "verify",
     )
 
-    def __init__(self, entry: Entry, seal: Seal | None) -> None:
+    def __init__(self, entry: Entry, seal: Seal | None, *, accelerated: bool) -> None:
+        self.entry = entry
         self.kind = kind = entry.type
-        self._unpack = entry.packer.unpack
-        self._decode = entry.decode
-        self._decoded: dict[bytes, Message] = {}
+        straight = entry.straight if accelerated else None
+        self.decode = straight.decode if straight else entry.decode
         self.length, self.frame_length = kind.LENGTH, kind.MODEL.frame_length
         self.other_format = None if entry.is_fd is None else not entry.is_fd
         self.counter = entry.counter
@@ -76,15 +76,3 @@ class Reader:
             return LengthError(kind.FRAME_ID, data, kind.NAME, self.length)
         received, expected = seal.read(data), seal.expected(data)
         return ChecksumError(kind.FRAME_ID, data, kind.NAME, received=received, expected=expected)
-
-    def decode(self, data: bytes) -> Message:
-        """The message in a payload of full length: there is none that cannot be decoded.
-
-        What was decoded is kept, as most frames on a bus say what was said before.
-        """
-        message = self._decoded.get(data)
-        if message is None:
-            if len(self._decoded) >= _KEPT:
-                self._decoded.clear()
-            message = self._decoded[data] = self._decode(self._unpack(data))
-        return message

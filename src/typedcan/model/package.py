@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from typedcan.model.errors import ReadError
+from typedcan.model.errors import DatabaseError, ReadError
 from typedcan.model.protocol import Protocol
 from typedcan.model.serial import from_json
-from typedcan.wire.errors import DatabaseError
 
 MODEL_FILE = "protocol.json"
 """The name of the file."""
