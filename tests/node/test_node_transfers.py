@@ -17,7 +17,6 @@ from typedcan.node.errors import RequestError
 from typedcan.node.node import Node
 from typedcan.transfer import Blocks, Problem, Readings, Text, TransferError, Transfers, split
 from typedcan.wire.dynamic import typed_protocol
-from typedcan.wire.errors import TransferError
 from typedcan.wire.message import Message
 
 SERIAL = Text("serial", "A1B2C3", {"maker": 2})
