@@ -11,8 +11,8 @@ import pytest
 
 from typedcan.commands.transcript import json_line, text_line
 from typedcan.databases.dbc import read_database
+from typedcan.dynamic import typed_protocol
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.receiver import Received, Receiver
 
 _DBC = """VERSION ""

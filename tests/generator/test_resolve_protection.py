@@ -16,11 +16,11 @@ from dbcspec.emit.spec import emit_spec
 from dbcspec.errors import SpecError
 from dbcspec.spec.compiled import compile_spec
 from swapcan.messages import BMS_TMS_0
+from typedcan.dynamic import typed_protocol
 from typedcan.model.checksums.registry import names
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import Message, Protocol
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import EncodeError
 
 DOCS = (Path(__file__).parents[2] / "docs" / "checksums.md").read_text("utf-8")

@@ -15,9 +15,9 @@ from swapcan import PROTOCOL, encode
 from swapcan.commands.tool import TOOL
 from swapcan.glance.look import glance_of
 from swapcan.transfer import split_vin
+from typedcan.dynamic import typed_protocol
 from typedcan.monitor.watch import Watch
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 
 CHINESE = Path(__file__).parents[2] / "dbc" / "caamtb-swap.zh-utf8.dbc"
 

@@ -21,11 +21,11 @@ import typedcan
 from dbcspec.config import find_config
 from dbcspec.project import load
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.judge import Judge, JudgeError, Judgement, judge_log, rules_for
 from typedcan.judge.report import to_csv, to_html, to_json, to_junit
 from typedcan.transfer import split
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol
 
 FIXTURES = Path(__file__).parents[1] / "fixtures"
@@ -265,7 +265,7 @@ def test_nothing_of_this_standard_is_needed(tmp_path: Path) -> None:
         "from pathlib import Path\n"
         "from typedcan.databases.dbc import read_dbc\n"
         "from typedcan.judge import Judge, judge_log\n"
-        "from typedcan.wire.dynamic import typed_protocol\n"
+        "from typedcan.dynamic import typed_protocol\n"
         "judge = Judge(typed_protocol(read_dbc(Path(sys.argv[1]))))\n"
         "judgement = judge_log(judge, sys.argv[2])\n"
         "print(*(r.rule.id for r in judgement.results if r.count))\n"

@@ -11,9 +11,9 @@ from cantools.database.can import Database
 from monitor.monitored import Monitored
 
 from typedcan.databases.dbc import read_database
+from typedcan.dynamic import typed_protocol
 from typedcan.monitor.watch import Watch
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 
 MACHINE = Path(__file__).with_name("machine.dbc")
 CODEC = Codec(typed_protocol(read_database(MACHINE)))

@@ -9,10 +9,10 @@ import pytest
 from monitor.machine import CODEC, frame, machine
 from monitor.monitored import Monitored, row, signal
 
+from typedcan.dynamic import typed_protocol
 from typedcan.model.protocol import Bus
 from typedcan.monitor.watch import Watch
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 
 
 def test_one_number_in_both_widths_is_two_messages() -> None:

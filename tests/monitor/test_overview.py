@@ -14,10 +14,10 @@ from monitor.monitored import frame as pack_frame
 from dbcspec.config import find_config
 from dbcspec.project import load
 from swapcan import Codec as PackCodec
+from typedcan.dynamic import typed_protocol
 from typedcan.model.protocol import Protocol
 from typedcan.monitor.watch import Watch
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 
 SECOND = Path(__file__).parents[1] / "fixtures" / "second"
 

@@ -11,12 +11,12 @@ import pytest
 from node.bench import Recorder
 from transfer.rack import DOCS, project, rack
 
+from typedcan.dynamic import typed_protocol
 from typedcan.model.transfers.blocks import NumberedBlocks
 from typedcan.node.clock import SimulatedClock
 from typedcan.node.errors import RequestError
 from typedcan.node.node import Node
 from typedcan.transfer import Blocks, Problem, Readings, Text, TransferError, Transfers, split
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.message import Message
 
 SERIAL = Text("serial", "A1B2C3", {"maker": 2})

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from oracles import reference_codec as reference
 
 import swapcan
-from swapcan import EncodeError, SignalState, message_type
+from swapcan import Codec, EncodeError, SignalState, message_type
 from swapcan.messages import MESSAGES
 from typedcan.model.protocol import Message, Protocol, Signal
 from typedcan.wire.message import PhysicalField
@@ -24,6 +24,12 @@ from typedcan.wire.message import PhysicalField
 NAMES = [message.NAME for message in MESSAGES]
 PAYLOADS = st.binary(min_size=8, max_size=8)
 every_message = pytest.mark.parametrize("name", NAMES)
+
+
+@pytest.fixture(scope="module", params=[True, False], ids=["straight", "formats"])
+def codec(request: pytest.FixtureRequest) -> Codec:
+    """By generated functions, and by cantools' formats and the fields."""
+    return Codec(accelerated=request.param)
 
 
 @pytest.fixture(scope="module")
@@ -69,13 +75,13 @@ def test_raw_values_agree_with_cantools_in_both_directions(
 
 @every_message
 def test_typed_values_agree_with_the_reference_and_with_cantools(
-    name: str, protocol: Protocol, dbc: Database
+    codec: Codec, name: str, protocol: Protocol, dbc: Database
 ) -> None:
     message, theirs = protocol.message(name), dbc.get_message_by_name(name)
 
     @given(data=PAYLOADS)
     def agree(data: bytes) -> None:
-        decoded = swapcan.decode(message.frame_id, data, verify=False)
+        decoded = codec.decode(message.frame_id, data, verify=False)
         scaled = theirs.decode_simple(data, decode_choices=False)
         named = theirs.decode_simple(data)
         for signal in message.signals:
@@ -91,32 +97,34 @@ def test_typed_values_agree_with_the_reference_and_with_cantools(
 
 
 @every_message
-def test_encoding_what_was_decoded_gives_the_same_payload(name: str, protocol: Protocol) -> None:
+def test_encoding_what_was_decoded_gives_the_same_payload(
+    codec: Codec, name: str, protocol: Protocol
+) -> None:
     message = protocol.message(name)
 
     @given(raw=_defined_values(message))
     def same(raw: dict[str, int]) -> None:
         data = reference.payload(message, raw)
-        assert swapcan.encode(swapcan.decode(message.frame_id, data, verify=False)) == data
+        assert codec.encode(codec.decode(message.frame_id, data, verify=False)) == data
 
     same()
 
 
 @every_message
 def test_any_payload_decodes_and_encodes_to_itself_or_is_refused(
-    name: str, protocol: Protocol
+    codec: Codec, name: str, protocol: Protocol
 ) -> None:
     message = protocol.message(name)
 
     @given(data=PAYLOADS)
     def itself_or_refused(data: bytes) -> None:
         raw = reference.raw_values(message, data)
-        decoded = swapcan.decode(message.frame_id, data, verify=False)
+        decoded = codec.decode(message.frame_id, data, verify=False)
         if all(reference.is_defined(signal, raw[signal.name]) for signal in message.signals):
-            assert swapcan.encode(decoded) == reference.payload(message, raw)
+            assert codec.encode(decoded) == reference.payload(message, raw)
         else:
             try:
-                encoded = swapcan.encode(decoded)
+                encoded = codec.encode(decoded)
             except EncodeError as refused:
                 by_field = {_field(decoded, each): each for each in message.signals}
                 at_fault = by_field[refused.field]
@@ -128,16 +136,18 @@ def test_any_payload_decodes_and_encodes_to_itself_or_is_refused(
 
 
 @every_message
-def test_setting_one_signal_changes_only_its_bits(name: str, protocol: Protocol) -> None:
+def test_setting_one_signal_changes_only_its_bits(
+    codec: Codec, name: str, protocol: Protocol
+) -> None:
     message = protocol.message(name)
-    zero = swapcan.decode(message.frame_id, bytes(message.length), verify=False)
-    assert swapcan.encode(zero) == bytes(message.length)
+    zero = codec.decode(message.frame_id, bytes(message.length), verify=False)
+    assert codec.encode(zero) == bytes(message.length)
     for signal in message.signals:
         own = sum(1 << (8 * byte + bit) for byte, bit in reference.places(signal))
         for raw in (raw for raw in _telling_values(signal) if raw):
             alone = reference.payload(message, {signal.name: raw})
-            value = _value(swapcan.decode(message.frame_id, alone, verify=False), signal)
-            encoded = swapcan.encode(
+            value = _value(codec.decode(message.frame_id, alone, verify=False), signal)
+            encoded = codec.encode(
                 dataclasses.replace(zero, **{_field(zero, signal): value})  # type: ignore[type-var]
             )
             assert encoded == alone

@@ -114,3 +114,8 @@ def test_what_serves_any_protocol_names_no_message_of_this_one() -> None:
         for path in GENERIC
         for found in word.findall(path.read_text("utf-8"))
     ] == []
+
+
+def test_the_thin_runtime_stays_thin() -> None:
+    files = (ROOT / "src" / "typedcan" / "wire").glob("*.py")
+    assert sum(len(path.read_text("utf-8").splitlines()) for path in files) < 2_000

@@ -8,9 +8,9 @@ import can
 import pytest
 
 from typedcan.databases.dbc import read_database
+from typedcan.dynamic import typed_protocol
 from typedcan.supervise import SignalChanged, Supervisor
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.receiver import Received, Receiver
 
 _DBC = """VERSION ""

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from dbcspec.config import Config
 from dbcspec.project import Project, load
-from typedcan.wire.dynamic import typed_protocol
+from typedcan.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol
 
 TESTS = Path(__file__).parents[1]

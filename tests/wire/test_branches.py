@@ -11,8 +11,8 @@ import pytest
 from cantools.database.can import Database
 
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol

@@ -12,10 +12,10 @@ from cantools.database.can import Database
 
 from swapcan import PROTOCOL
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import database
 from typedcan.wire.decoding import decoder_of
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.link import Link
 from typedcan.wire.message import Message

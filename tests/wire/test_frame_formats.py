@@ -10,9 +10,9 @@ import pytest
 from cantools.database.can import Database
 
 from typedcan.databases.dbc import read_any, read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.node.node import Node
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import SendingError
 from typedcan.wire.link import Link
 from typedcan.wire.protocol import Protocol

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.model.soundness import remarks, with_unique_names
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import EncodeError
 
 CASES = Path(__file__).parents[1] / "fixtures" / "cases"

@@ -15,9 +15,9 @@ from cantools.database.can import Database
 
 from typedcan.commands.values import message_of
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.fields import ExactField, PhysicalField
 from typedcan.wire.message import Message

@@ -6,13 +6,13 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 
+from typedcan.dynamic import typed_protocol
 from typedcan.model import protocol as model
 from typedcan.model.errors import ReadError, one_line
 from typedcan.model.package import MODEL_FILE
 from typedcan.model.plain import shown
 from typedcan.model.serial import from_json
 from typedcan.shell.console import CommandError
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol
 
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from typedcan.commands.algorithms import add_algorithm_option, algorithms_of
+from typedcan.dynamic import typed_protocol
 from typedcan.model import protocol as model
 from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.monitor.glance import Glance
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol
 
 # What shtab calls a file, for the completion of shells.

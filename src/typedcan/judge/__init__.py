@@ -1,6 +1,6 @@
 """Does what is on a bus keep to its protocol? Needs the extra ``logs``.
 
-For example, with a protocol that `typedcan.wire.dynamic.typed_protocol` made, or a generated one:
+For example, with a protocol that `typedcan.dynamic.typed_protocol` made, or a generated one:
 
     judgement = judge_log(Judge(protocol), "drive.blf")
     print(judgement.verdict)

@@ -49,9 +49,12 @@ class Writer:
             counter = None
         elif counter is None and self._first and getattr(message, self._counter.name) is None:
             counter = self._first
+        elif counter is not None and counter not in self._counts:
+            kind, problem = self._entry.type, f"has no room for {counter}"
+            raise EncodeError(kind.NAME, self._counter.name, counter, problem)
         renewed = given and renew
         straight = self._straight
-        if straight and not (safe or renewed) and (counter is None or counter in self._counts):
+        if straight and not (safe or renewed):
             data = straight(message, counter)
         else:
             data = self._packed(message, counter, renewed=renewed, safe=safe)
