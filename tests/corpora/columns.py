@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from cantools.database.can import Message as CantoolsMessage
 
+from typedcan.dynamic import typed_protocol
 from typedcan.logs.columns import Column, MessageColumns
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock, FrameFlag
@@ -18,7 +19,6 @@ from typedcan.logs.protocol import read
 from typedcan.model import protocol as model
 from typedcan.model.protocol import FD_LENGTHS
 from typedcan.trial import Oracle, Values, payloads
-from typedcan.wire.dynamic import typed_protocol
 
 ByIdentifier = Mapping[tuple[bool, int], CantoolsMessage]
 

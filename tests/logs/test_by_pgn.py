@@ -15,6 +15,7 @@ import pytest
 import typedcan.__main__ as program
 from swapcan.logs import Options, tables
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.logs.batch import decode_batch
 from typedcan.logs.checks import Checks
 from typedcan.logs.decode import Decoder
@@ -23,7 +24,6 @@ from typedcan.logs.pipeline import Layout
 from typedcan.logs.protocol import known, read
 from typedcan.model.protection import Counter
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.receiver import Received, Receiver
 
 FIXTURES = Path(__file__).parents[1] / "fixtures"

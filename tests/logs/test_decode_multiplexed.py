@@ -9,12 +9,12 @@ from cantools.database.can import Message, Signal
 from cantools.database.conversion import BaseConversion
 from logs.decode_databases import Frame, block_of, model_of
 
+from typedcan.dynamic import typed_protocol
 from typedcan.logs.columns import Column, State
 from typedcan.logs.decode import Decoder
 from typedcan.logs.plan import Mode
 from typedcan.model import protocol as model
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 
 
 def nested() -> tuple[model.Message, ...]:

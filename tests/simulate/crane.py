@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 import can
 from emit.other_protocol import signal
 
+from typedcan.dynamic import typed_protocol
 from typedcan.model.acting import ActingCodes
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import Code, Message, Node, Protocol, SendType, ValueTable
@@ -20,7 +21,6 @@ from typedcan.node.clock import Clock
 from typedcan.node.node import Node as LiveNode
 from typedcan.simulate.participant import Participant
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message as Message_
 

@@ -27,6 +27,7 @@ from simulate.crane import (
 )
 
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.node.clock import SimulatedClock
 from typedcan.node.node import Node
 from typedcan.simulate.faults import FaultKind, Faults
@@ -35,7 +36,6 @@ from typedcan.simulate.participant import Participant
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.times import PlanError
 from typedcan.simulate.world import World
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.link import Link
 from typedcan.wire.message import Message
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from transfer.rack import rack
 
+from typedcan.dynamic import typed_protocol
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.protocol import known
@@ -21,7 +22,6 @@ from typedcan.model.transfer import Counted, Ending, Numbering, Transfer
 from typedcan.model.transfers.kind import MOST_ITEMS
 from typedcan.transfer import Assembler, Text, TransferError, Transfers, split
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.protocol import Protocol as TypedProtocol
 
 

@@ -17,12 +17,12 @@ from hypothesis import strategies as st
 
 from swapcan import PROTOCOL
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.model import j1939
 from typedcan.model.protection import Counter
 from typedcan.model.protocol import Node as NodeFacts
 from typedcan.node.node import Node
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import SendingError, UnknownFrameError
 from typedcan.wire.link import Link
 from typedcan.wire.message import Message

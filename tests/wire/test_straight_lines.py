@@ -29,8 +29,8 @@ class Foreign(IntEnum):
 class Lying(int):
     """An int that says that it is a float."""
 
-    @property
-    def __class__(self) -> type:  # type: ignore[misc]
+    @property  # type: ignore[misc]
+    def __class__(self) -> type:
         return float
 
 
