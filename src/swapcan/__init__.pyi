@@ -57,9 +57,7 @@ from typedcan.wire.link import (
     Fault as Fault,
     Received as Received,
 )
-from typedcan.wire.message import (
-    Message as Message,
-    SignalState as SignalState,
-)
+from typedcan.wire.message import Message as Message
+from typedcan.model.signal_state import SignalState as SignalState
 
 __all__: list[str]

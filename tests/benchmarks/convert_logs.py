@@ -39,7 +39,8 @@ import swapcan
 from swapcan.logs import convert_logs
 from swapcan.messages import MESSAGES
 from typedcan.wire.errors import EncodeError
-from typedcan.wire.message import Message, PhysicalField
+from typedcan.wire.fields import PhysicalField
+from typedcan.wire.message import Message
 
 _FEW = 20_000
 """Frames for those who take them one by one."""

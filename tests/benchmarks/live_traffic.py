@@ -20,7 +20,7 @@ from swapcan import Message
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import B2V_BattInfo2, B2V_Ucell, Manufacturer
 from swapcan.transfer import split_cell_voltages, split_pack_code, split_probe_temperatures
-from typedcan.wire.message import PhysicalField
+from typedcan.wire.fields import PhysicalField
 
 _CELLS = {csc: [3.3 + n / 1000 for n in range(12)] for csc in range(1, 19)}
 _PROBES = {csc: [25.0] * 6 for csc in range(1, 19)}

@@ -24,9 +24,9 @@ from dbcspec.emit.stubs import emit_stubs
 from swapcan import SignalState
 from swapcan import messages as m
 from swapcan.messages import MESSAGES
+from typedcan.model.code_types import Code2, Code5
 from typedcan.model.protocol import Protocol, ValueTable
 from typedcan.wire.codec import Codec
-from typedcan.wire.message import Code2, Code5
 from typedcan.wire.packing import packer_of
 
 PACKAGES = {"othercar": OTHER, "plaincar": PLAIN}

@@ -74,7 +74,7 @@ from typing import assert_type
 from swapcan import Codec, Link, Message, Node, PackCode, Pending, Received, SignalState
 from swapcan import StateChanged, Vin, decode
 from swapcan.messages import *
-from typedcan.wire.message import Code2
+from typedcan.model.code_types import Code2
 Number = float | SignalState
 def link(link: Link) -> None:
     received = link.receive(B2V_ST2, timeout=0)

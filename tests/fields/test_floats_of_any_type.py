@@ -23,7 +23,7 @@ from fields.meant import real_number
 from dbcspec.emit.foreign import foreign_artifacts
 from swapcan import EncodeError
 from typedcan.databases.dbc import read_dbc
-from typedcan.wire.message import FloatField
+from typedcan.wire.fields import FloatField
 from typedcan.wire.packing import packer_of
 
 LARGEST = {32: Fraction(2**128 - 2**104), 64: Fraction(2**1024 - 2**971)}

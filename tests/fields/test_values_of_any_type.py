@@ -27,7 +27,7 @@ from hypothesis.extra import numpy as st_numpy
 import swapcan
 from swapcan import EncodeError, Message
 from swapcan import messages as m
-from typedcan.wire.message import Field
+from typedcan.wire.fields import Field
 
 KINDS = ["PhysicalField", "NumberField", "LabelledField", "CharacterField", "FilledField"]
 DBC = Path(__file__).parent.parent.parent / "dbc" / "caamtb-swap.dbc"

@@ -12,7 +12,7 @@ import pytest
 
 from swapcan import EncodeError, SignalState
 from typedcan.model.protocol import Signal
-from typedcan.wire.message import FloatField
+from typedcan.wire.fields import FloatField
 
 FLOAT = FloatField(
     signal=Signal(name="Ratio", start=0, length=32, minimum=Decimal(0), maximum=Decimal(1)),

@@ -16,7 +16,8 @@ from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.plan import Mode
 from typedcan.logs.transfers import CycleTable, ReadingColumns
-from typedcan.wire.message import Message, SignalState
+from typedcan.model.signal_state import SignalState
+from typedcan.wire.message import Message
 
 INVALID = SignalState.INVALID
 Reading = float | SignalState

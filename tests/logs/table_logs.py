@@ -17,7 +17,8 @@ from defaults import default_of, needed_by
 import swapcan
 from swapcan.messages import MESSAGES
 from typedcan.wire.errors import EncodeError
-from typedcan.wire.message import Message, PhysicalField
+from typedcan.wire.fields import PhysicalField
+from typedcan.wire.message import Message
 
 START = 1_700_000_000.0
 """When the logs begin, in seconds since 1970."""

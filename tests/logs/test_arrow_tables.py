@@ -20,7 +20,7 @@ from swapcan.messages import B2V_ST2, MESSAGES
 from typedcan.logs.database import DbcError
 from typedcan.logs.pipeline import Options
 from typedcan.logs.plan import Mode, SelectionError
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 _DBC = Path(__file__).parents[1] / "fixtures" / "dbc"
 _WORDS = {SignalState.INVALID: "invalid", SignalState.ABNORMAL: "abnormal"}

@@ -13,7 +13,7 @@ from logs.cell_logs import INVALID, Reading, Sent, put_together, totals, ucell
 from swapcan.log_protocol import CELLS
 from swapcan.messages import B2V_BattInfo2
 from typedcan.logs.transfers import CycleCounts, ReadingColumns
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 transfer: Any = pytest.importorskip(
     "swapcan.transfer", reason="the live runtime's transfers are not part of this checkout"

@@ -15,7 +15,7 @@ import swapcan
 from swapcan.logs import tables
 from swapcan.messages import B2V_ST2, MESSAGES
 from typedcan.logs.pipeline import Layout, Options
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 _DBC = Path(__file__).parents[1] / "fixtures" / "dbc"
 _LONG = Options(layout=Layout.LONG)

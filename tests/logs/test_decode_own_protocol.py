@@ -19,7 +19,7 @@ from typedcan.logs.columns import Column, State
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameFlag
 from typedcan.logs.plan import Mode
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 
 @pytest.fixture(scope="module")

@@ -21,9 +21,10 @@ from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.protocol import known
 from typedcan.logs.transfers import CycleCounts, ReadingColumns
 from typedcan.logs.transfers.values import ValueColumns
+from typedcan.model.signal_state import SignalState
 from typedcan.transfer import Assembler, Blocks, Problem, Readings, Text, split
 from typedcan.wire.codec import Codec
-from typedcan.wire.message import Message, SignalState
+from typedcan.wire.message import Message
 
 PROTOCOL = rack()
 CODEC = Codec(PROTOCOL)

@@ -18,7 +18,7 @@ from swapcan.messages import (
 )
 from swapcan.nodes.bmu import Bmu
 from swapcan.nodes.world import World
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 Pack = tuple[Bmu, Outside, World]
 """The pack, what is around it, and their time."""

@@ -43,7 +43,8 @@ from swapcan.messages import (
 from swapcan.nodes.bmu import PACK_CODE
 from swapcan.transfer import split_vin
 from swapcan.wire import encode
-from typedcan.wire.message import Message, SignalState
+from typedcan.model.signal_state import SignalState
+from typedcan.wire.message import Message
 
 VIN = "LDEMTRCK0R0000025"
 

@@ -27,7 +27,7 @@ from swapcan.messages import (
     HvCommand,
     RelayState,
 )
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 VOLTAGE = 79.9  # of the resting pack at its first state of charge
 IDLE = C2B_ACStatus(

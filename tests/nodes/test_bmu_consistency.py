@@ -30,7 +30,8 @@ from swapcan.messages import (
 )
 from swapcan.nodes.bmu import Bmu
 from swapcan.plant.battery import Battery, Layout
-from typedcan.wire.message import Message, SignalState
+from typedcan.model.signal_state import SignalState
+from typedcan.wire.message import Message
 
 ON = V2B_CMD(hv_on_off=HvCommand.HV_ON, vehicle_speed=0.0)
 CYCLE = 0.1

@@ -20,7 +20,7 @@ from swapcan.messages import (
     HvOffRequest,
     RelayState,
 )
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 
 def test_a_grave_fault_asks_for_high_voltage_off_until_it_is_gone(closed: Pack) -> None:

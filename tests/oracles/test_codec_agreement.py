@@ -19,7 +19,7 @@ import swapcan
 from swapcan import Codec, EncodeError, SignalState, message_type
 from swapcan.messages import MESSAGES
 from typedcan.model.protocol import Message, Protocol, Signal
-from typedcan.wire.message import PhysicalField
+from typedcan.wire.fields import PhysicalField
 
 NAMES = [message.NAME for message in MESSAGES]
 PAYLOADS = st.binary(min_size=8, max_size=8)

@@ -9,7 +9,7 @@ import pytest
 from swapcan.plant.alarms import FAULT_NUMBERS, Alarms, Faults
 from swapcan.plant.battery import Battery, Layout
 from swapcan.plant.sensors import Extreme, Measurement, Sensors
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 
 def measured(battery: Battery | None = None, *faults: str, seconds: float = 2.0) -> Measurement:

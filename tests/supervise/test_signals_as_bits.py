@@ -14,12 +14,13 @@ from swapcan import Message, Received
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import MESSAGES
 from typedcan.model.protocol import Signal
+from typedcan.model.signal_state import SignalState
 from typedcan.supervise import SignalChanged
 from typedcan.supervise.bit_places import bit_places, byte_order
 from typedcan.supervise.right_codes import right_codes
 from typedcan.supervise.signal_watch import WatchedField, watched_fields
 from typedcan.supervise.tracked_message import TrackedMessage
-from typedcan.wire.message import PhysicalField, SignalState
+from typedcan.wire.fields import PhysicalField
 
 DATABASE = cantools.database.load_string(swapcan.dbc_text(), "dbc")
 WATCHED = [(kind, field) for kind in MESSAGES for field in watched_fields(PROTOCOL, kind).values()]

@@ -16,9 +16,10 @@ from swapcan.messages import (
     RelayState,
 )
 from typedcan.model.protocol import Signal
+from typedcan.model.signal_state import SignalState
 from typedcan.supervise import SignalChanged, SupervisionEvent, Supervisor
 from typedcan.supervise.signal_watch import Judge, judge_of
-from typedcan.wire.message import PhysicalField, SignalState
+from typedcan.wire.fields import PhysicalField
 
 
 def told(*frames: tuple[str, dict[str, int]], node: str = "VCU") -> list[list[str]]:

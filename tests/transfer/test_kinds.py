@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from transfer.rack import project, rack
 
+from typedcan.model.signal_state import SignalState
 from typedcan.transfer import (
     Assembler,
     Blocks,
@@ -19,7 +20,7 @@ from typedcan.transfer import (
     split,
 )
 from typedcan.wire.codec import Codec
-from typedcan.wire.message import Message, SignalState
+from typedcan.wire.message import Message
 
 INVALID = SignalState.INVALID
 CODEC = Codec(rack())

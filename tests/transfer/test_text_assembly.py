@@ -20,7 +20,7 @@ from swapcan.transfer import (
     split_pack_code,
     split_vin,
 )
-from typedcan.wire.message import Code5
+from typedcan.model.code_types import Code5
 
 VIN = "1M8GDM9AXKP042788"
 OTHER = "5GZCZ43D13S812715"

@@ -14,6 +14,7 @@ from dbcspec.emit.stub_fields import StubField, literal
 from dbcspec.emit.stub_names import StubNames
 from typedcan.model.kinds import Kind
 from typedcan.model.layout import bits
+from typedcan.model.limits import sending_limits
 from typedcan.model.protocol import ByteOrder, Message, Signal
 from typedcan.model.scaling import is_fine, is_whole, scaling_of
 
@@ -53,14 +54,7 @@ def can_encode(message: Message, fields: list[StubField]) -> bool:
         can_decode(message, fields)
         and not any(field.conditions for field in fields)
         and len(taken) == len({*taken})
-        and all(_fits(field.signal) for field in fields)
     )
-
-
-def _fits(signal: Signal) -> bool:
-    """Whether every value of its range has room in its bits."""
-    (low, high), (least, most) = signal.raw_limits, signal.raw_range
-    return low <= least <= most <= high
 
 
 def decoding(message: Message, fields: list[StubField], branches: Branches) -> Iterator[str]:
@@ -162,13 +156,11 @@ def _tested(field: StubField, slow: str, names: StubNames) -> Iterator[str]:
     yield test
     yield f"        r = {_scaled(signal) if kind is Kind.PHYSICAL else 'x'}"
     if kind is Kind.PHYSICAL:
-        low, high = signal.raw_range
-        reached = [f"r == {code}" for code in _states(signal) if low <= code <= high]
-        if reached:
-            yield f"        if {' or '.join(reached)}:"
+        if signal.states:
+            yield f"        if {' or '.join(f'r == {code}' for code in signal.states)}:"
             yield f"            r = {slow}(x)"
-    for code, state in _states(signal).items() if kind is not Kind.LABELLED else ():
-        yield f"    elif x is {state}:"
+    for code, state in signal.states.items() if kind is not Kind.LABELLED else ():
+        yield f"    elif x is {state.name}:"
         yield f"        r = {code}"
     yield "    else:"
     yield f"        r = {slow}(x)"
@@ -177,12 +169,11 @@ def _tested(field: StubField, slow: str, names: StubNames) -> Iterator[str]:
 def _test(field: StubField, names: StubNames) -> str:
     """Whether the field would take what is given as it is; empty where that is not tested here."""
     signal, table = field.signal, field.signal.value_table
-    low, high = signal.raw_range
+    low, high = sending_limits(signal, field.kind)
     if field.kind is Kind.PHYSICAL and not (is_fine(signal) or is_whole(signal)):
-        least, most = sorted((float(signal.minimum), float(signal.maximum)))
-        return f"type(x) is float and {literal(least)} <= x <= {literal(most)}"
+        return f"type(x) is float and {literal(low)} <= x <= {literal(high)}"
     if field.kind is Kind.NUMBER and signal.factor == 1 and not signal.offset:
-        others = "".join(f" and x != {code}" for code in _states(signal) if low <= code <= high)
+        others = "".join(f" and x != {code}" for code in signal.states if low <= code <= high)
         return f"type(x) is int and {low} <= x <= {high}{others}"
     if field.kind is Kind.LABELLED and table:
         enum = f"k is enums.{names.enum_of(table)}"
@@ -190,11 +181,6 @@ def _test(field: StubField, names: StubNames) -> str:
             return f"{enum} or (k is int and {low} <= x <= {high})"
         return f"({enum} or k is int) and {low} <= x <= {high}"
     return ""
-
-
-def _states(signal: Signal) -> dict[int, str]:
-    pairs = ((signal.invalid_code, "INVALID"), (signal.abnormal_code, "ABNORMAL"))
-    return {code: state for code, state in pairs if code is not None}
 
 
 def _scaled(signal: Signal) -> str:

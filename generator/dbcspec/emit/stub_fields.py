@@ -63,13 +63,8 @@ def _field(
     )
 
 
-def _states(signal: Signal) -> dict[int, str]:
-    pairs = ((signal.invalid_code, "INVALID"), (signal.abnormal_code, "ABNORMAL"))
-    return {code: state for code, state in pairs if code is not None}
-
-
 def _annotation(signal: Signal, kind: Kind, names: StubNames) -> str:
-    state = " | SignalState" if _states(signal) else ""
+    state = " | SignalState" if signal.states else ""
     if kind is Kind.LABELLED and signal.value_table:
         return f"{names.enum_of(signal.value_table)} | {code_type(signal) or 'int'}"
     return {
@@ -100,8 +95,8 @@ def _default(signal: Signal, kind: Kind, names: StubNames) -> str:
         return f"{enum}.{member}" if member else str(raw)
     if kind is Kind.FLOAT:
         return literal(_physical(signal, kind, raw))
-    if raw in _states(signal):
-        return f"SignalState.{_states(signal)[raw]}"
+    if raw in signal.states:
+        return f"SignalState.{signal.states[raw].name}"
     return literal(_physical(signal, kind, raw))
 
 
@@ -144,8 +139,8 @@ def _expression(signal: Signal, kind: Kind, raw: str, table: str) -> str:
     if offset:
         start = raw if factor == 1 else value
         value = f"{start} {'-' if offset < 0 else '+'} {literal(abs(offset))}"
-    for code, state in reversed(_states(signal).items()) if kind is not Kind.FLOAT else ():
-        value = f"{state} if {raw} == {code} else {value}"
+    for code, state in reversed([*signal.states.items()]) if kind is not Kind.FLOAT else ():
+        value = f"{state.name} if {raw} == {code} else {value}"
     return value
 
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import enums, messages
-from typedcan.wire.message import Message, SignalState, StraightLine, code_table, draft_of, raw_of
+from typedcan.generated import Message, SignalState, StraightLine, code_table, draft_of, raw_of
 
 INVALID = SignalState.INVALID
 ABNORMAL = SignalState.ABNORMAL
@@ -662,6 +662,8 @@ def _encode_B2V_BattInfo2(m: Any, c: int | None) -> bytes:
     x = m.platform_ucell
     if type(x) is float and 0.0 <= x <= 5.0:
         r = round(x / 0.1)
+        if r == 255:
+            r = _raw_10[3](x)
     elif x is INVALID:
         r = 255
     else:
@@ -670,6 +672,8 @@ def _encode_B2V_BattInfo2(m: Any, c: int | None) -> bytes:
     x = m.avai_min_ucell
     if type(x) is float and 0.0 <= x <= 5.0:
         r = round(x / 0.1)
+        if r == 255:
+            r = _raw_10[4](x)
     elif x is INVALID:
         r = 255
     else:
@@ -678,6 +682,8 @@ def _encode_B2V_BattInfo2(m: Any, c: int | None) -> bytes:
     x = m.avai_max_ucell
     if type(x) is float and 0.0 <= x <= 5.0:
         r = round(x / 0.1)
+        if r == 255:
+            r = _raw_10[5](x)
     elif x is INVALID:
         r = 255
     else:

@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from typedcan.model.protocol import Message as MessageModel
 from typedcan.wire.binding import fields_of as _fields_of
-from typedcan.wire.message import (
+from typedcan.generated import (
     Checksum,
     Code1,
     Code2,

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from swapcan.messages import MESSAGES
+from typedcan.model.signal_state import SignalState
 from typedcan.shell.printing import aligned
+from typedcan.wire.fields import CharacterField, Field, LabelledField
 from typedcan.wire.link import Received
-from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState
+from typedcan.wire.message import Message
 
 _SERIES = ("csc_no", "frame_no")
 """Fields that tell the frames of one cycle apart."""

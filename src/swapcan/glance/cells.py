@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from swapcan.transfer import CellVoltages, Reading
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 _FRESH = 1.0
 """Seconds for which a voltage counts as received: ten periods."""

@@ -19,7 +19,8 @@ from swapcan.messages import (
 )
 from typedcan.monitor.glance import Known, Seen
 from typedcan.monitor.rows import LATE, LOST, mark_of
-from typedcan.wire.message import LabelledField, Message, Value
+from typedcan.wire.fields import LabelledField, Value
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 

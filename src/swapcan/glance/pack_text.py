@@ -10,9 +10,9 @@ from rich.text import Text
 from swapcan.glance.cells import Cell, CellMap
 from swapcan.glance.pack import Item, Pack, Section
 from swapcan.transfer import Reading
+from typedcan.model.signal_state import SignalState
 from typedcan.monitor.view.styles import ALERT, mark_text
 from typedcan.shell.printing import printable
-from typedcan.wire.message import SignalState
 
 _BLOCK = 33
 """Characters of one block and the gap after it."""

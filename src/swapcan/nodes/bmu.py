@@ -57,11 +57,12 @@ from swapcan.plant.sensors import (
     SENSOR_FAILURE,
 )
 from swapcan.transfer import Vin, split_pack_code
+from typedcan.model.signal_state import SignalState
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import State
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
-from typedcan.wire.message import Message, SignalState
+from typedcan.wire.message import Message
 
 PACK_CODE = "001PB280SWAPR1EA10000025"
 """The 24 characters of GB/T 34014 of the simulated pack."""

@@ -19,11 +19,11 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.nodes.world import Participant
+from typedcan.model.signal_state import SignalState
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import NotSeen, State, StateChanged
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
-from typedcan.wire.message import SignalState
 
 _SELF_TEST = 0.5
 """Seconds from being connected to the first report."""

@@ -18,11 +18,12 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.nodes.world import Participant
+from typedcan.model.code_types import Code2
+from typedcan.model.signal_state import SignalState
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
-from typedcan.wire.message import Code2, SignalState
 
 _AMBIENT = 25.0
 """degC of the water that is neither cooled nor heated."""

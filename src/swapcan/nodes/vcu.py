@@ -33,12 +33,13 @@ from swapcan.node.answers import BatteryInfo
 from swapcan.nodes.world import Participant
 from swapcan.plant.driving import Motion, Power, Profile, Trip, shuttle
 from swapcan.transfer import PackCode, split_vin
+from typedcan.model.signal_state import SignalState
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
-from typedcan.wire.message import Message, SignalState
+from typedcan.wire.message import Message
 
 VIN = "LDEMTRCK0R0000025"
 """Of the simulated truck."""

@@ -10,7 +10,7 @@ from swapcan.messages import B2V_ST0, B2V_ST1
 from swapcan.plant.relays import Relay
 from swapcan.plant.sensors import Measurement
 from swapcan.transfer import Reading
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 HIGHEST_LEVEL = 3
 

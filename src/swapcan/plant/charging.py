@@ -14,7 +14,7 @@ from swapcan.messages import (
 )
 from swapcan.plant.charge_path import ChargePath
 from swapcan.plant.sensors import FULL_CELL, Measurement
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 _MATCHED = 0.05  # share by which the charger's voltage may differ from the battery's
 _FULL = 100.0  # percent

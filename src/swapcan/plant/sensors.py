@@ -15,7 +15,7 @@ from swapcan.plant.curves import (
     interpolate,
 )
 from swapcan.transfer import Reading
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 FULL_CELL = 3.6
 """V that charging brings no cell above."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swapcan.messages import ThermalMode
 from swapcan.plant.sensors import Measurement
-from typedcan.wire.message import SignalState
+from typedcan.model.signal_state import SignalState
 
 _COOL_FROM, _COOL_TO = 32.0, 28.0  # degC of the warmest probe
 _HEAT_FROM, _HEAT_TO = 5.0, 10.0  # degC of the coldest one

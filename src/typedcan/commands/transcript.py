@@ -31,10 +31,12 @@ from typing import Any
 import can
 
 from typedcan.model.j1939 import GLOBAL_ADDRESS
+from typedcan.model.signal_state import SignalState
 from typedcan.shell.console import say
 from typedcan.wire.codec import Codec
+from typedcan.wire.fields import Field, LabelledField
 from typedcan.wire.link import Fault, Received
-from typedcan.wire.message import Field, LabelledField, Message, SignalState
+from typedcan.wire.message import Message
 from typedcan.wire.receiver import Counts, Receiver
 
 JSON_HELP = (

@@ -10,18 +10,18 @@ from decimal import Decimal, InvalidOperation
 from typing import Any, cast
 
 from typedcan.model.plain import shown
+from typedcan.model.signal_state import SignalState
 from typedcan.shell.console import CommandError
-from typedcan.wire.message import (
+from typedcan.wire.fields import (
     CharacterField,
     ExactField,
     Field,
     FilledField,
     LabelledField,
-    Message,
     PhysicalField,
-    SignalState,
     Value,
 )
+from typedcan.wire.message import Message
 
 _STATES = {"invalid": SignalState.INVALID, "abnormal": SignalState.ABNORMAL}
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
+from types import MappingProxyType
 
 from typedcan.model.acting import ActingCodes, no_value
 from typedcan.model.errors import Location
+from typedcan.model.signal_state import SignalState
 
 NOWHERE = Location("")
 
@@ -75,6 +78,15 @@ class Signal:
     reference: str = ""
     errata: tuple[str, ...] = ()
     where: Location = field(default=NOWHERE, compare=False)
+
+    @property
+    def states(self) -> Mapping[int, SignalState]:
+        """The raw values that are no value, and what they say."""
+        pairs = (
+            (self.invalid_code, SignalState.INVALID),
+            (self.abnormal_code, SignalState.ABNORMAL),
+        )
+        return MappingProxyType({code: state for code, state in pairs if code is not None})
 
     @property
     def must_be_given(self) -> bool:

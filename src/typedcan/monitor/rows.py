@@ -7,11 +7,13 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
+from typedcan.model.signal_state import SignalState
 from typedcan.monitor.glance import Seen
 from typedcan.supervise.events import SignalKind, State
 from typedcan.supervise.signal_watch import Judge, watched_fields
 from typedcan.supervise.snapshot import MessageSnapshot
-from typedcan.wire.message import CharacterField, Field, LabelledField, Message, SignalState, Value
+from typedcan.wire.fields import CharacterField, Field, LabelledField, Value
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 NEVER_SEEN = str(State.NEVER_SEEN)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
 
-from typedcan.wire.message import Message, Value
+from typedcan.wire.fields import Value
+from typedcan.wire.message import Message
 
 SignalKind = Literal["invalid", "abnormal", "out of range", "unknown code", "alarm"]
 """In which way a signal says that something is wrong."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
-from typedcan.wire.message import CharacterField, Field, LabelledField, Value
+from typedcan.wire.fields import CharacterField, Field, LabelledField, Value
 
 _FEW_BITS = 8
 """The longest signal whose raw values are looked at one by one."""

@@ -6,21 +6,21 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from typedcan.model.signal_state import SignalState
 from typedcan.supervise.bit_places import ByteOrder, Place, bit_places
 from typedcan.supervise.events import SignalChanged, SignalKind
 from typedcan.supervise.right_codes import MOST_BITS, right_codes
 from typedcan.supervise.snapshot import SignalSnapshot
-from typedcan.wire.link import Received
-from typedcan.wire.message import (
+from typedcan.wire.fields import (
     CharacterField,
     Field,
     FilledField,
     LabelledField,
-    Message,
     NumberField,
-    SignalState,
     Value,
 )
+from typedcan.wire.link import Received
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Transfer
 
 Judge = Callable[[Value], SignalKind | None]

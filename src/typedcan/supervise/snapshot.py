@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from typedcan.model.signal_state import SignalState
 from typedcan.supervise.events import SignalKind, State
 from typedcan.supervise.periods import PeriodStats
-from typedcan.wire.message import SignalState, Value
+from typedcan.wire.fields import Value
 
 
 @dataclass(frozen=True, slots=True)

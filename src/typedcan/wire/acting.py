@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from typedcan.wire.message import Field, Message
+from typedcan.wire.fields import Field
+from typedcan.wire.message import Message
 
 _KNOWN: dict[type[Message], tuple[Field, ...]] = {}  # looked up for every frame that is sent
 

@@ -1,4 +1,4 @@
-"""Typed messages: the base class, and all that generated code is made of."""
+"""Typed messages: the base class, and what makes them quickly."""
 
 from __future__ import annotations
 
@@ -9,53 +9,13 @@ from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple, TypeVar
 
 from typedcan.model import protocol as model
-from typedcan.model.code_types import Code1, Code2, Code3, Code4, Code5, Code6, Code7, Code8
 from typedcan.model.plain import shown
 from typedcan.model.protection import Checksum, Counter
-from typedcan.model.signal_state import SignalState
 from typedcan.wire.errors import EncodeError
 from typedcan.wire.fields import (
-    CharacterField,
-    ExactField,
     Field,
     FilledField,
-    FloatField,
-    LabelledField,
-    NumberField,
-    PhysicalField,
-    Value,
 )
-
-__all__ = [
-    "CharacterField",
-    "Checksum",
-    "Code1",
-    "Code2",
-    "Code3",
-    "Code4",
-    "Code5",
-    "Code6",
-    "Code7",
-    "Code8",
-    "Counter",
-    "ExactField",
-    "Field",
-    "FilledField",
-    "FloatField",
-    "LabelledField",
-    "Message",
-    "MessageT",
-    "MessageT_co",
-    "NumberField",
-    "PhysicalField",
-    "SignalState",
-    "StraightLine",
-    "Value",
-    "code_table",
-    "draft_of",
-    "raw_of",
-]
-
 
 Selected = Mapping[str, tuple[str, tuple[int, ...]]]
 """Fields of branches: the field that selects each, and the raw values with which it does."""

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from typedcan.judge.findings import Subject
 from typedcan.judge.measure.steps import keyed
-from typedcan.wire.message import Field, LabelledField, Message
+from typedcan.wire.fields import Field, LabelledField
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 _MOST = 6

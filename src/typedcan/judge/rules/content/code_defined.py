@@ -11,7 +11,7 @@ from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.content.codes import Codes, judge_codes, senders, whole_fields, without
 from typedcan.judge.scope import Scope
 from typedcan.report.language import Text
-from typedcan.wire.message import LabelledField
+from typedcan.wire.fields import LabelledField
 from typedcan.wire.protocol import FieldRef, Protocol, Transfer
 
 _UNDEFINED = Text(

@@ -11,7 +11,7 @@ from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.content.codes import Codes, judge_codes, senders, whole_fields
 from typedcan.judge.scope import Scope
 from typedcan.report.language import Text
-from typedcan.wire.message import Field
+from typedcan.wire.fields import Field
 from typedcan.wire.protocol import Protocol
 
 _RESERVED = Text("code {code} is reserved", "编码 {code} 为保留编码")

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.series import Series
-from typedcan.wire.fields import FloatField
-from typedcan.wire.message import Field, Message
+from typedcan.wire.fields import Field, FloatField
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 Span = tuple[int, int]

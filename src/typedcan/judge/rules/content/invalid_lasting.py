@@ -17,8 +17,10 @@ from typedcan.judge.scope import Scope
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import Tolerance
 from typedcan.logs.checks import PERIODS
+from typedcan.model.signal_state import SignalState
 from typedcan.report.language import Text
-from typedcan.wire.message import Field, FilledField, Message, SignalState
+from typedcan.wire.fields import Field, FilledField
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 SECONDS = Tolerance(

@@ -20,8 +20,7 @@ from typedcan.judge.rules.content.codes import (
     without,
 )
 from typedcan.report.language import Text
-from typedcan.wire.fields import NumberField, PhysicalField
-from typedcan.wire.message import Field
+from typedcan.wire.fields import Field, NumberField, PhysicalField
 from typedcan.wire.protocol import Protocol
 
 _OUTSIDE = Text(
