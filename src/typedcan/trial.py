@@ -40,7 +40,6 @@ from typedcan.wire.protocol import Protocol
 
 _PAYLOADS = 6
 """Random payloads that each message is tried with, beside those of all 0 and all 1."""
-
 _BRANCHES = 100
 """Signals of branches that are tried, of a message."""
 
@@ -165,13 +164,12 @@ class _Trial:
             yield f"{self._kind.NAME}: {fault}"
 
     def _straight(self, message: Message, data: bytes) -> str:
-        """What generated functions do otherwise than cantools' formats and the fields."""
-        if self._entry.straight is None:
-            return ""
-        other = self._entry.straight.decode(data)
+        """What straight lines do otherwise than cantools' formats and the fields."""
+        straight = self._entry.straight
+        other = straight.decode(data) if straight else message
         if type(other) is not type(message) or repr(other) != repr(message):
             return f"straight lines make {other!r}, not {message!r}"
-        mine, plain = (_sent(codec, message) for codec in (self._codec, self._plain))
+        mine, plain = _sent(self._codec, message), _sent(self._plain, message)
         return "" if mine == plain else f"sent as {mine} in straight lines, as {plain} else"
 
     def _decoded(self, message: Message, values: Values) -> str:
@@ -245,11 +243,10 @@ def _branches(kind: type[Message]) -> Iterator[dict[Signal, int]]:
 
 
 def _sent(codec: Codec, message: Message) -> str:
-    """The payload that a message is sent as, or why it is not."""
     try:
         return codec.encode(message, counter=0).hex()
-    except Exception as error:  # noqa: BLE001 - both ways have to raise the same
-        return one_line(error)
+    except EncodeError as error:
+        return str(error)
 
 
 def _with_codes(data: bytes, codes: Mapping[Signal, int]) -> bytes:

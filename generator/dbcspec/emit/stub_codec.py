@@ -155,10 +155,9 @@ def _tested(field: StubField, slow: str, names: StubNames) -> Iterator[str]:
         yield "    k = type(x)"
     yield test
     yield f"        r = {_scaled(signal) if kind is Kind.PHYSICAL else 'x'}"
-    if kind is Kind.PHYSICAL:
-        if signal.states:
-            yield f"        if {' or '.join(f'r == {code}' for code in signal.states)}:"
-            yield f"            r = {slow}(x)"
+    if kind is Kind.PHYSICAL and signal.states:
+        yield f"        if {' or '.join(f'r == {code}' for code in signal.states)}:"
+        yield f"            r = {slow}(x)"
     for code, state in signal.states.items() if kind is not Kind.LABELLED else ():
         yield f"    elif x is {state.name}:"
         yield f"        r = {code}"
