@@ -10,10 +10,10 @@ import pytest
 from rules.recorded import block_of
 
 from typedcan.databases.dbc import read_dbc
+from typedcan.dynamic import typed_protocol
 from typedcan.judge import Judge, Judgement
 from typedcan.model.protection import Counter
 from typedcan.model.protocol import SendType
-from typedcan.wire.dynamic import typed_protocol
 
 GROUPS = read_dbc(Path(__file__).parents[1] / "fixtures" / "databases" / "groups.dbc")
 

@@ -13,12 +13,12 @@ from cantools.autosar import end_to_end
 from read.autosar import Guarded, arxml
 
 from typedcan.databases.dbc import read_any
+from typedcan.dynamic import typed_protocol
 from typedcan.logs.batch import decode_batch, frame_batches
 from typedcan.logs.protocol import read
 from typedcan.model.protection import Counter
 from typedcan.model.protocol import Message, Protocol
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.errors import ChecksumError
 
 IDS = [dice.randrange(256) for dice in [random.Random(9)] for _ in range(16)]

@@ -7,11 +7,11 @@ from decimal import Decimal
 import can
 import pytest
 
+from typedcan.dynamic import typed_protocol
 from typedcan.model.protocol import Code, Message, Node, Protocol, Signal, ValueTable
 from typedcan.model.transfer import Counted, Transfer
 from typedcan.supervise import SignalChanged, Supervisor
 from typedcan.wire.codec import Codec
-from typedcan.wire.dynamic import typed_protocol
 from typedcan.wire.receiver import Received, Receiver
 
 LETTERS = ValueTable("Letter", tuple(Code(ord(each), each, each) for each in "ABC"))

@@ -15,7 +15,6 @@ from typedcan.model.transfers.reading_rules import Readings
 from typedcan.model.transfers.registry import KINDS, problems
 from typedcan.model.transfers.text import Text
 from typedcan.transfer.split import TransferError
-from typedcan.wire.fields import CharacterField
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Transfer
 
