@@ -9,10 +9,10 @@ from model.protected import MOTOROLA, message, signal
 from oracles.bitwise_crc import Parameters, crc
 from rules.recorded import block_of
 
+from typedcan.dynamic import typed_protocol
 from typedcan.judge import Judge, Judgement
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import Node, Protocol
-from typedcan.wire.dynamic import typed_protocol
 
 CCITT = Parameters(width=16, poly=0x1021, init=0xFFFF, refin=False, refout=False, xorout=0)
 GUARDED = typed_protocol(
