@@ -24,6 +24,7 @@ from typedcan.wire.message import Message
 
 INVALID = SignalState.INVALID
 CODEC = Codec(rack())
+REST: dict[int, list[Reading]] = {1: [30.0] * 3, 2: [40.0] * 2}
 
 
 def frames(name: str, value: Any) -> list[str]:
@@ -191,7 +192,10 @@ def test_blocks_hold_values_in_the_units_of_their_signals() -> None:
         ("curve", [1.0] * 4, "the frames carry 5 items, not 4"),
         ("curve", [1.0, 2.0, 3.0, 4.0, 501.0], "501 % is out of range"),
         ("weights", {256: [1.0]}, "Weights shelf 256; Weights shelfs are numbered 1 to 254"),
-        ("heats", {0: [211.0]}, "Heats row 0 number 1: 211 degC is out of range"),
+        ("heats", {0: [211.0] * 4, **REST}, "Heats row 0 number 1: 211 degC is out of range"),
+        ("heats", {0: [20.0] * 3, **REST}, "Heats row 0 has 4 readings, not 3"),
+        ("heats", {0: [20.0] * 4, **REST, 3: [1.0]}, "Heats row 3 has 0 readings, not 1"),
+        ("heats", {0: [20.0] * 4}, "Heats row 1 has 3 readings, not 0"),
     ],
 )
 def test_what_the_frames_cannot_carry_is_refused(name: str, value: Any, problem: str) -> None:

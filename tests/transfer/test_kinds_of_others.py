@@ -236,6 +236,14 @@ def test_readings_that_tell_their_totals_themselves_and_are_numbered_through() -
     ]
 
 
+def test_readings_numbered_through_have_room_for_as_many_frames_as_there_are_numbers() -> None:
+    transfer = typed_protocol(protocol_of(LOADS, *LOAD_SIGNALS, name="LOADS")).transfers[0]
+    most = {1: [1] * 300, 2: [2] * 210}
+    assert len(split(transfer, most)) == 255
+    with pytest.raises(TransferError, match="ROW 2 has 211 readings, 105 frames have no room"):
+        split(transfer, most | {2: [2] * 211})
+
+
 def test_readings_numbered_through_that_do_not_divide_are_told_once_and_never_reported() -> None:
     model = protocol_of(LOADS, *LOAD_SIGNALS, name="LOADS")
     payloads = loads((1, 1, 2, 5, 11, 12), (1, 2, 2, 5, 13, 0), (2, 3, 2, 5, 21, 22)) * 3

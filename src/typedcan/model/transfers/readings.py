@@ -75,10 +75,15 @@ class ReadingsByGroup(Kind):
             if isinstance(value, Readings)
             else value
         )
+        counts = dict(enumerate(parts.transfer.counts, parts.transfer.first_group))
+        for group in sorted({*counts, *groups} if counts else ()):
+            there, known = len(groups.get(group, ())), counts.get(group, 0)
+            if there != known:
+                raise SplitError(f"{parts.word} {group} has {known} readings, not {there}")
         before: Mapping[int, int] = {}
         if parts.transfer.numbering is Numbering.THROUGH:
-            counts = {group: len(readings) for group, readings in groups.items()}
-            before = numbered_through(counts, parts.width)
+            own = {group: len(readings) for group, readings in groups.items()}
+            before = numbered_through(own, parts.width)
         return [
             frame
             for group in sorted(groups)
