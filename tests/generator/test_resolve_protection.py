@@ -186,6 +186,9 @@ def test_the_spec_that_is_written_says_the_same(car: Protocol, tmp_path: Path) -
         ("range: 1~255", "range: 1.5~255", "steps of 1 do not lead from 1.5 to 255"),
         ("range: 1~255", "range: 1~256", "it runs 1 to 256, it may run within 0 to 255"),
         ("signal: Door_Sum", "signal: Speed.Door_Sum", "there is no 'Speed.Door_Sum'"),
+        ("signal: Door_Sum", "signal: Lamp_Count", "Lamp_Count: Lamp has Lamp_Sum already"),
+        ("signal: Steer_Count", "signal: Steer_CRC", "is the checksum, and cannot be the counter"),
+        ("signal: Lamp_Count", "signal: Speed_CRC", "Speed_CRC: Speed has Speed_Count already"),
     ],
 )
 def test_what_cannot_be_is_told_with_its_place(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from matrix.workbooks import small
+from matrix.workbooks import HEADINGS, SPEED, save, small
 from model.protected import message, signal
 
 from dbcspec.matrix.read import read_matrix
@@ -77,6 +77,23 @@ def test_a_cell_that_says_what_cannot_be_is_told(cell: str, problem: str, tmp_pa
     with pytest.raises(TypedcanError) as caught:
         read_matrix(small(tmp_path / "m.xlsx", Protection=cell))
     assert problem in caught.value.lines[0]
+
+
+def test_a_message_has_one_checksum_and_one_counter(tmp_path: Path) -> None:
+    gear = ["Wheels", "0x123", 8, "Gear", "Intel", 16, 16, "S", "R"]
+    for cell in ("Checksum xor, bytes 5", "Counter, modulus 16"):
+        rows: list[list[object]] = [[*HEADINGS, "Protection"], [*SPEED, cell], [*gear, cell]]
+        with pytest.raises(TypedcanError) as caught:
+            read_matrix(save(tmp_path / "m.xlsx", rows))
+        assert "Wheels has Speed already for this" in caught.value.lines[0]
+    rows = [
+        [*HEADINGS, "Protection"],
+        [*SPEED, "Checksum xor, bytes 5"],
+        [*gear, "Counter, modulus 16"],
+    ]
+    (found,) = read_matrix(save(tmp_path / "m.xlsx", rows)).messages
+    assert found.checksum
+    assert found.counter
 
 
 def test_what_people_write_in_other_ways_is_understood(tmp_path: Path) -> None:

@@ -32,13 +32,18 @@ def protected(message: Message, rows: Sequence[Row]) -> Message:
     named: dict[str, Row] = {}
     for row in rows:
         name, text = row.name("signal_name"), row.text("protection")
-        if found := _CHECKSUM.fullmatch(text):
-            message = dataclasses.replace(message, checksum=_checksum(name, found))
-        elif found := _COUNTER.fullmatch(text):
-            message = dataclasses.replace(message, counter=_counter(name, found))
+        other: Checksum | Counter | None = None
+        if match := _CHECKSUM.fullmatch(text):
+            other = message.checksum
+            message = dataclasses.replace(message, checksum=_checksum(name, match))
+        elif match := _COUNTER.fullmatch(text):
+            other = message.counter
+            message = dataclasses.replace(message, counter=_counter(name, match))
         elif text:
             example = "'Checksum xor, bytes 1~7' or 'Counter, modulus 16'"
             row.fault("protection", f"expected {example}, not {text[:40]!r}")
+        if other:
+            row.fault("protection", f"{message.name} has {other.signal} already for this")
         named[name] = row
     for name, _, text in protection_faults(message):
         named[name].fault("protection", text)

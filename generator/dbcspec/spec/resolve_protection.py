@@ -32,8 +32,8 @@ def filled_in(spec: Spec) -> dict[str, int]:
 def protected(message: Message, spec: Spec, faults: list[Fault]) -> Message:
     """The message with its checksum and its counter; what is wrong with them is a fault."""
     behaviour, before = spec.behaviour, len(faults)
-    counting = _row_of(message, behaviour.counters)
-    checked = _row_of(message, behaviour.checksums)
+    counting = _row_of(message, behaviour.counters, faults)
+    checked = _row_of(message, behaviour.checksums, faults)
     if counting:
         counter = _counter(*counting, faults)
         message = dataclasses.replace(message, counter=counter)
@@ -48,14 +48,19 @@ def protected(message: Message, spec: Spec, faults: list[Fault]) -> Message:
     return message
 
 
-def _row_of(message: Message, rows: Iterable[RowT]) -> tuple[str, RowT] | None:
-    """The first signal of a message that a row speaks of, and the row."""
+def _row_of(message: Message, rows: Iterable[RowT], faults: list[Fault]) -> tuple[str, RowT] | None:
+    """The signal of a message that a row speaks of, and the row; another one is a fault."""
     names = {signal.name for signal in message.signals}
+    found: tuple[str, RowT] | None = None
     for row in rows:
         where, _, name = row.signal.rpartition(".")
-        if name in names and where in ("", message.name):
-            return name, row
-    return None
+        if name not in names or where not in ("", message.name):
+            continue
+        if found:
+            text = f"{row.signal}: {message.name} has {found[0]} already for this"
+            faults.append(Fault(row.where_is("signal"), text))
+        found = found or (name, row)
+    return found
 
 
 def _missing(row: ChecksumRow | CounterRow, key: str) -> Fault:

@@ -142,6 +142,9 @@ def protection_faults(message: Message) -> Iterator[tuple[str, str, str]]:
     if message.counter:
         for key, text in _counter_faults(message, message.counter):
             yield message.counter.signal, key, text
+    if message.checksum and message.counter and message.checksum.signal == message.counter.signal:
+        name = message.counter.signal
+        yield name, "signal", f"{name}: is the checksum, and cannot be the counter too"
 
 
 def _carrier_fault(message: Message, name: str) -> str | None:
