@@ -136,15 +136,16 @@ def protection_faults(message: Message) -> Iterator[tuple[str, str, str]]:
 
     Yields the signal, the key of a spec that is to be corrected, and what is wrong.
     """
+    if message.checksum and message.counter and message.checksum.signal == message.counter.signal:
+        name = message.counter.signal
+        yield name, "signal", f"{name}: is the checksum, and cannot be the counter too"
+        return
     if message.checksum:
         for key, text in _checksum_faults(message, message.checksum):
             yield message.checksum.signal, key, text
     if message.counter:
         for key, text in _counter_faults(message, message.counter):
             yield message.counter.signal, key, text
-    if message.checksum and message.counter and message.checksum.signal == message.counter.signal:
-        name = message.counter.signal
-        yield name, "signal", f"{name}: is the checksum, and cannot be the counter too"
 
 
 def _carrier_fault(message: Message, name: str) -> str | None:
