@@ -200,14 +200,17 @@ class Driving:
             raise BusyBusError(bus.intruder)
         if bus.failure:
             raise bus.failure
-        if self._is_lost(bus):
+        if self._lasting_trouble(bus):
             with suppress(Exception):  # nodes try less often: it may be back
                 bus.recv(0)
-            if bus.trouble and self._is_lost(bus):
-                raise bus.trouble[1]
+            if trouble := self._lasting_trouble(bus):
+                raise trouble
 
-    def _is_lost(self, bus: NotingBus) -> bool:
-        return bus.trouble is not None and self._clock.now() - bus.trouble[0] >= _TROUBLE
+    def _lasting_trouble(self, bus: NotingBus) -> Exception | None:
+        """What a bus has raised for too long, if anything."""
+        if bus.trouble is None or self._clock.now() - bus.trouble[0] < _TROUBLE:
+            return None
+        return bus.trouble[1]
 
     def _hearing(self) -> World:
         """A world in which the buses are heard, and nobody lives."""
