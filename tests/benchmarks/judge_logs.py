@@ -82,6 +82,7 @@ class _Timed(Watcher):
     def __init__(self, rule: Rule, spent: dict[str, float], findings: Findings) -> None:
         super().__init__(findings)
         self._watcher = rule.watch(findings)
+        self.wants_cycles = self._watcher.wants_cycles  # type: ignore[misc]
         self._id = rule.id
         self._spent = spent
 

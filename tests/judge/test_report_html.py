@@ -154,9 +154,13 @@ def test_tolerances_are_listed_with_their_values() -> None:
     tables = [each for each in document.iter("table") if "Value in force" in words(each)]
     (table,) = tables
     rows = [[words(cell) for cell in row] for row in table.iter("tr")]
-    assert rows[1:] == [
+    assert rows[1:3] == [
         ["answer-in-time.delay", "0.75", "s", "0.5", "until the answer"],
         ["period-mean.share", "0.1", "", "0.1", "share of the period"],
+    ]
+    assert [row[:4] for row in rows[3:5]] == [
+        ["last-known.periods", "3.5", "", "3.5"],
+        ["silence.periods", "5", "", "5"],
     ]
 
 

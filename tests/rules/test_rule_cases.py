@@ -16,6 +16,7 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.conform import RULES, Judgement, Rule, RuleResult, Status, judge_log
 from swapcan.rules import SCOPE
 from typedcan.judge.rules import rules_for
+from typedcan.judge.tolerance import SHARED, Tolerance
 
 CASES = Path(__file__).with_name("cases")
 
@@ -89,7 +90,19 @@ def test_every_module_with_a_rule_is_registered_under_the_name_of_its_file() -> 
 
 def test_ids_of_rules_and_names_of_tolerances_are_unique() -> None:
     ids = [rule.id for rule in RULES]
-    names = [each.name for rule in RULES for each in rule.tolerances]
+    own = [each for rule in RULES for each in rule.tolerances if _is_own(rule, each)]
+    shared = {each for rule in RULES for each in rule.tolerances if not _is_own(rule, each)}
+    names = [each.name for each in (*own, *shared, *SHARED)]
     assert len(ids) == len(set(ids))
     assert len(names) == len(set(names))
-    assert all(each.name.startswith(f"{rule.id}.") for rule in RULES for each in rule.tolerances)
+    assert not {name.partition(".")[0] for name in names[len(own) :]} & set(ids)
+
+
+def _is_own(rule: Rule, tolerance: Tolerance) -> bool:
+    return tolerance.name.startswith(f"{rule.id}.")
+
+
+def test_tolerances_that_rules_share_are_explained_in_both_languages() -> None:
+    for each in SHARED:
+        assert each.text.en
+        assert re.search(r"[\u4e00-\u9fff]", each.text.zh)

@@ -11,6 +11,7 @@ from typing import Self
 from typedcan.commands.algorithms import algorithms_of
 from typedcan.judge import Judge, Judgement, Rule, judge_log
 from typedcan.judge.measure.presence import nodes_of
+from typedcan.judge.tolerance import SHARED
 from typedcan.logs.window import Moment
 from typedcan.model.checksums.registry import Given
 from typedcan.shell.console import CommandError
@@ -70,7 +71,8 @@ class Choice:
         limits = dict(given.tolerances)
         named = tuple(dict.fromkeys(_named(given.judge, protocol.nodes)))
         _check("rule", (*given.only, *given.skip), [rule.id for rule in every])
-        _check("tolerance", limits, [each.name for rule in every for each in rule.tolerances])
+        own = (each for rule in every for each in rule.tolerances)
+        _check("tolerance", limits, [each.name for each in (*own, *SHARED)])
         return cls(
             protocol=protocol,
             rules=rules,

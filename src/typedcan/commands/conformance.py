@@ -12,6 +12,7 @@ from typedcan.commands.conform_bus import judged_by_hearing
 from typedcan.commands.conform_choice import Choice
 from typedcan.commands.conform_reports import Judged, Reports
 from typedcan.judge import Judgement, Rule, Severity, Status, Verdict, rules_for
+from typedcan.judge.tolerance import SHARED
 from typedcan.logs.progress import Progress
 from typedcan.logs.window import moment
 from typedcan.report.language import Language
@@ -104,11 +105,10 @@ def list_rules(rules: Iterable[Rule], language: Language) -> None:
 
 
 def list_tolerances(rules: Iterable[Rule], language: Language) -> None:
-    """Print a table of what rules allow."""
+    """Print a table of what rules allow, and what several of them go by."""
     rows = [
         (each.name, f"{each.value:g}", each.unit, each.text.within(language))
-        for rule in rules
-        for each in rule.tolerances
+        for each in dict.fromkeys((*(each for rule in rules for each in rule.tolerances), *SHARED))
     ]
     for line in aligned(("tolerance", "value", "unit", "text"), rows):
         say(line)

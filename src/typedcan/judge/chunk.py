@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from typedcan.judge.decoded import DecodedChunk
@@ -27,6 +27,9 @@ class Chunk(DecodedChunk):
         What came of each node up to the end of the chunk.
     left_over
         The frames that no message's frames hold.
+    cycles
+        The cycles of readings by group that are complete with this chunk, their time stamps the
+        log's own; none where no rule wants them.
     """
 
     def __init__(
@@ -36,7 +39,7 @@ class Chunk(DecodedChunk):
         timing: Timing,
         nodes: Mapping[str, Presence],
         left_over: LeftOver,
-        cycles: Callable[[], Sequence[CycleTable]],
+        cycles: Sequence[CycleTable],
     ) -> None:
         super().__init__(
             decoded.block,
@@ -50,15 +53,7 @@ class Chunk(DecodedChunk):
         self.timing = timing
         self.nodes = nodes
         self.left_over = left_over
-        self._cycles = cycles
-
-    @property
-    def cycles(self) -> Sequence[CycleTable]:
-        """The cycles of readings by group that are complete with this chunk.
-
-        Their time stamps are the log's own.
-        """
-        return self._cycles()
+        self.cycles = cycles
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.judge.series import Series
-from typedcan.judge.tolerance import Tolerance
+from typedcan.judge.tolerance import Limits
 from typedcan.report.language import Language, Text
 
 KEPT = 1000
@@ -77,7 +77,7 @@ Said = tuple[Text, Mapping[str, Any]]
 """A text, and what fills it in."""
 
 
-class Findings:
+class Findings(Limits):
     """Takes what a rule examines and finds in one log.
 
     Parameters
@@ -90,6 +90,7 @@ class Findings:
     """
 
     def __init__(self, nodes: Sequence[str], limits: Mapping[str, float] | None = None) -> None:
+        super().__init__(limits)
         self.nodes = frozenset(nodes)
         self.first_node = nodes[0]
         """Whom findings are noted for that are nobody's fault."""
@@ -98,12 +99,7 @@ class Findings:
         self.frames = 0
         self.worst: Occurrence | None = None
         self.kept: list[Occurrence] = []
-        self._limits = limits or {}
         self._open: dict[Subject, int] = {}  # place among the kept; -1: not kept
-
-    def limit(self, tolerance: Tolerance) -> float:
-        """The value of a tolerance in this run."""
-        return self._limits.get(tolerance.name, tolerance.value)
 
     def examine(self, node: str, count: int = 1) -> None:
         """Say that so many things of a node were judged, right or wrong.

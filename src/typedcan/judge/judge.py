@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from typedcan.judge.decoded import DecodedChunk
 from typedcan.judge.findings import Findings
 from typedcan.judge.judgement import Judgement, RuleResult
 from typedcan.judge.measure.channels import Channels, Formats, Senders, has_length
+from typedcan.judge.measure.last_known import fresh_for
 from typedcan.judge.measure.left_over import by_pgn_of, keys_of, left_over
 from typedcan.judge.measure.load import LoadMeter
 from typedcan.judge.measure.periods import PeriodMeter
@@ -23,6 +23,7 @@ from typedcan.judge.measure.traffic import Traffic
 from typedcan.judge.rule import Rule
 from typedcan.judge.rules import rules_for
 from typedcan.judge.series import Before, Series
+from typedcan.judge.tolerance import SHARED, Limits
 from typedcan.logs import protocol as logs
 from typedcan.logs.checks import rows_where
 from typedcan.logs.checksums import NONE, checksums_right
@@ -86,12 +87,12 @@ class Judge:
         every = nodes_of(protocol)
         self.nodes = every if nodes is None else tuple(nodes)
         self._protocol = protocol
-        self._limits = dict(limits or {})
+        self._limits = Limits(limits)
         self._algorithms = algorithms
         self._seals = seals_of(protocol.model.messages, algorithms)
-        _check(every, self.nodes, self._limits, (*rules, *known))
+        _check(every, self.nodes, self._limits.given, (*rules, *known))
         judged = [node for node in every if node in self.nodes]
-        self._findings = [(rule, Findings(judged, self._limits)) for rule in rules]
+        self._findings = [(rule, Findings(judged, self._limits.given)) for rule in rules]
         self._watchers = [
             rule.watch(findings)
             for rule, findings in self._findings
@@ -99,8 +100,9 @@ class Judge:
         ]
         decoded_by = known_protocol(protocol.model)
         self._decoder = Decoder(decoded_by.messages, mode=Mode.RAW)
-        self._readings = _Readings(decoded_by)
-        self._steps, self._traffic = StepMeter(protocol), Traffic(protocol)
+        wanted = any(watcher.wants_cycles for watcher in self._watchers)
+        self._readings = _Readings(decoded_by) if wanted else None
+        self._steps, self._traffic = StepMeter(protocol, self._limits), Traffic(protocol)
         self._keys = keys_of(protocol)
         self._load, self._periods = LoadMeter(), PeriodMeter(protocol)
         self._before: dict[tuple[type[Message], bool], Before | None] = {}
@@ -150,7 +152,7 @@ class Judge:
             results=tuple(_result(rule, findings) for rule, findings in self._findings),
             periods=self._periods.finish(presences.messages),
             load=self._load.finish(self._end, self._traffic),
-            limits=self._limits,
+            limits=self._limits.given,
             damage=tuple(damage),
         )
 
@@ -195,14 +197,19 @@ class Judge:
             timing=timing,
             nodes=self._steps.presences.nodes,
             left_over=left_over(chunk, self._keys, self._by_pgn),
-            cycles=cache(lambda: self._readings.cycles(chunk.block, self._channels.first)),
+            cycles=self._cycles(chunk.block),
         )
+
+    def _cycles(self, block: FrameBlock) -> Sequence[CycleTable]:
+        return self._readings.cycles(block, self._channels.first) if self._readings else ()
 
     def _series(
         self, message: type[Message], columns: MessageColumns | None, begin: float, *, sound: bool
     ) -> Series:
         before = self._before.get((message, sound))
-        series = Series(message, columns, before, begin, self._orders)
+        series = Series(
+            message, columns, before, begin, self._orders, fresh_for(message, self._limits)
+        )
         self._before[message, sound] = series.last()
         return series
 
@@ -226,7 +233,7 @@ class Judge:
 
 
 class _Readings:
-    """Puts cycles of readings together, where a rule asks for them; then it asks each time."""
+    """Puts cycles of readings together."""
 
     def __init__(self, protocol: logs.Protocol) -> None:
         wanted = dict.fromkeys(
@@ -269,7 +276,8 @@ def _check(
     for node in nodes:
         if node not in every:
             raise JudgeError(f"there is no node {node!r}; known: {', '.join(every)}")
-    known = {tolerance.name for rule in rules for tolerance in rule.tolerances}
+    own = (tolerance for rule in rules for tolerance in rule.tolerances)
+    known = {tolerance.name for tolerance in (*own, *SHARED)}
     for name in limits:
         if name not in known:
             raise JudgeError(f"there is no tolerance {name!r}; known: {', '.join(sorted(known))}")

@@ -164,7 +164,7 @@ class LastingWatcher(Watcher):
 
     def lasting(self, subject: Subject, longest: float | None, message: type[Message]) -> Lasting:
         """What goes over the frames of a message, and is ended with the log; see `Lasting`."""
-        made = Lasting(self.findings, subject, longest, fresh_for(message))
+        made = Lasting(self.findings, subject, longest, fresh_for(message, self.findings))
         self._all.append(made)
         return made
 

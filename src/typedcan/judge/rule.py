@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import ClassVar
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings
@@ -34,6 +35,9 @@ class Watcher(ABC):
     findings
         Where it says what it examined and what it found.
     """
+
+    wants_cycles: ClassVar[bool] = False
+    """Whether it looks at `Chunk.cycles`: they are put together only for those who do."""
 
     def __init__(self, findings: Findings) -> None:
         self.findings = findings

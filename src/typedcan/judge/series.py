@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -40,6 +41,8 @@ class Series:
         float64, seconds since the log's begin.
     order
         int64, number of the frame in the log, from 0.
+    lasts
+        Seconds for which what a frame said counts, as `LAST_KNOWN` has it.
     first
         The first new row: 1 where row 0 is the last frame of the chunk before, else 0.
     """
@@ -51,8 +54,10 @@ class Series:
         before: Before | None,
         begin: float,
         first_order: int,
+        lasts: float = math.inf,
     ) -> None:
         self.message = message
+        self.lasts = lasts
         self.first = 0 if before is None else 1
         self._columns = columns
         self._before = before

@@ -23,7 +23,7 @@ class AlarmWatcher(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._stream = AlarmStream()
+        self._stream = AlarmStream(findings)
         signal = B2V_ST1.FIELDS[self.field].dbc_name
         self.runs = Runs(findings, Subject(B2V_ST1.SENDER, B2V_ST1.NAME, signal))
 

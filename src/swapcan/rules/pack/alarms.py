@@ -16,6 +16,7 @@ from swapcan.messages import B2V_ST0, B2V_ST1
 from swapcan.rules.pack.surroundings import Surrounded, Surroundings, rows_of
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.series import Series
+from typedcan.judge.tolerance import Limits
 from typedcan.wire.message import Message
 
 Words = NDArray[np.uint64]
@@ -119,8 +120,8 @@ class Alarms:
 class AlarmStream:
     """Hands out each B2V_ST1 once it is known what is told around it."""
 
-    def __init__(self) -> None:
-        self._surroundings = Surroundings()
+    def __init__(self, limits: Limits) -> None:
+        self._surroundings = Surroundings(limits)
 
     def feed(self, chunk: Chunk) -> Alarms:
         """Those that can be judged with this chunk."""

@@ -79,7 +79,7 @@ class Announced(Watcher):
         self._message = message
         self._totals = totals
         self._seconds = findings.limit(seconds)
-        self._silences = Silences()
+        self._silences = Silences(findings)
         self._epoch = 0
         self._begin()
 

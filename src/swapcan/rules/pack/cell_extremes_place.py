@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from swapcan.rules.pack.extremes import CELL_VOLTAGES, ExtremesPlace
+from swapcan.rules.shared import CYCLES_APART, TOLD_BEFORE
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -41,6 +42,6 @@ RULE = Rule(
     clause="Table 6 rows 4 to 7 (5.1.5), Table 9 (5.1.8)",
     severity=Severity.MUST,
     judges=("BMU",),
-    tolerances=(_VOLTS, _CYCLES),
+    tolerances=(_VOLTS, _CYCLES, CYCLES_APART, TOLD_BEFORE),
     watch=partial(ExtremesPlace, kind=CELL_VOLTAGES, allowed=_VOLTS, lasting=_CYCLES),
 )

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from swapcan.messages import B2V_ST5, B2V_ST6
 from swapcan.rules.pack.runs import ROUNDING, Runs
 from swapcan.rules.pack.surroundings import Surrounded, Surroundings, rows_of
+from swapcan.rules.shared import AROUND
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -57,7 +58,7 @@ class CellVoltagesOrdered(Watcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._step, self._volts = findings.limit(_STEP), findings.limit(_VOLTS)
-        self._surroundings = Surroundings()
+        self._surroundings = Surroundings(findings)
         self._above = Runs(findings, Subject(B2V_ST5.SENDER, B2V_ST5.NAME, _AVERAGE, "> max"))
         below = Subject(B2V_ST5.SENDER, B2V_ST5.NAME, _AVERAGE, "< min")
         self._below = Runs(findings, below, least=_IN_A_ROW)
@@ -128,6 +129,6 @@ RULE = Rule(
     clause="Table 6 rows 1 to 3 (5.1.5)",
     severity=Severity.MUST,
     judges=("BMU",),
-    tolerances=(_STEP, _VOLTS),
+    tolerances=(_STEP, _VOLTS, AROUND),
     watch=CellVoltagesOrdered,
 )

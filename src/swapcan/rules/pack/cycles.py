@@ -14,7 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from swapcan.rules.shared import CYCLES_APART
 from typedcan.judge.chunk import Chunk
+from typedcan.judge.tolerance import Limits
 from typedcan.logs.columns import State
 from typedcan.logs.transfers.cycles import CycleTable
 from typedcan.logs.transfers.readings import Readings
@@ -23,9 +25,6 @@ Numbers = NDArray[np.float64]
 
 SIDE = 2
 """Cycles on each side."""
-
-_APART = 2.5
-"""Periods between two cycles that are still neighbours: a lost frame costs one cycle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,15 +41,15 @@ class Cycles:
         Shape (n, k), NaN where there is none.
     whole
         Whether each reading of a cycle has a value.
-    period
-        Seconds between two cycles, as the standard has it.
+    apart
+        Seconds between two cycles that are still neighbours.
     """
 
     positions: tuple[tuple[int, int], ...]
     time: Numbers
     values: Numbers
     whole: NDArray[np.bool_]
-    period: float
+    apart: float
 
     @property
     def judged_at(self) -> Numbers:
@@ -61,7 +60,7 @@ class Cycles:
     def near(self) -> NDArray[np.bool_]:
         """Whether those that are to be judged have all neighbours in time."""
         steps = np.diff(self.time)
-        good = (steps >= 0) & (steps <= _APART * self.period)
+        good = (steps >= 0) & (steps <= self.apart)
         return _all(good, 2 * SIDE)
 
     @property
@@ -100,7 +99,8 @@ def _shifted(values: NDArray[Any], count: int) -> list[NDArray[Any]]:
 class CycleStream:
     """Hands out the cycles of one kind of readings; each is to be judged once."""
 
-    def __init__(self, readings: Readings) -> None:
+    def __init__(self, readings: Readings, limits: Limits) -> None:
+        self._apart = limits.limit(CYCLES_APART)
         self._readings = readings
         self._kept: Cycles | None = None
 
@@ -114,7 +114,7 @@ class CycleStream:
                     cycles.time[-2 * SIDE :].copy(),
                     cycles.values[-2 * SIDE :].copy(),
                     cycles.whole[-2 * SIDE :].copy(),
-                    cycles.period,
+                    cycles.apart,
                 )
                 if len(cycles.time) > 2 * SIDE:
                     yield cycles
@@ -128,4 +128,5 @@ class CycleStream:
             time = np.concatenate([kept.time, time])
             values = np.concatenate([kept.values, values])
             whole = np.concatenate([kept.whole, whole])
-        return Cycles(table.positions, time, values, whole, table.readings.period)
+        apart = self._apart * table.readings.period
+        return Cycles(table.positions, time, values, whole, apart)

@@ -10,6 +10,7 @@ from swapcan.messages import B2V_ElecEnergy
 from swapcan.rules.pack.integral import Numbers
 from swapcan.rules.pack.runs import ROUNDING, Runs
 from swapcan.rules.pack.silences import Silences
+from swapcan.rules.shared import ANOTHER_PACK
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -48,7 +49,7 @@ class EnergyCountersRise(Watcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._fall, self._anew = findings.limit(_FALL), findings.limit(_ANEW)
-        self._silences = Silences()
+        self._silences = Silences(findings)
         node, name, fields = B2V_ElecEnergy.SENDER, B2V_ElecEnergy.NAME, B2V_ElecEnergy.FIELDS
         self._runs = {
             field: Runs(findings, Subject(node, name, fields[field].dbc_name))
@@ -93,6 +94,6 @@ RULE = Rule(
     clause="Table 4 (5.1.4)",
     severity=Severity.MUST,
     judges=("BMU",),
-    tolerances=(_FALL, _ANEW),
+    tolerances=(_FALL, _ANEW, ANOTHER_PACK),
     watch=EnergyCountersRise,
 )

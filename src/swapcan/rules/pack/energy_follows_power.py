@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.messages import B2V_ST1, B2V_ST2, B2V_ST3, B2V_ElecEnergy
-from swapcan.rules.pack.integral import LONGEST, Integral, Numbers
+from swapcan.rules.pack.integral import Integral, Numbers
+from swapcan.rules.shared import SUMMED_OVER
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -72,7 +73,7 @@ class EnergyFollowsPower(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._integral = Integral(3)
+        self._integral = Integral(3, findings)
         self._begin: _Point | None = None
         self._end: _Point | None = None
         self._frames = 0
@@ -108,7 +109,9 @@ class EnergyFollowsPower(Watcher):
         series = chunk.sound(B2V_ST2)
         if not series.fresh:
             return before[None], np.array([gaps]), np.empty(0, np.int64)
-        power = (series.value("current") * _voltage(chunk, series) / _JOULES)[series.first :]
+        power = (
+            series.value("current") * _voltage(chunk, series, self._integral.longest) / _JOULES
+        )[series.first :]
         charger = _charger_is_there(chunk, series)[series.first :]
         out, into = np.maximum(power, 0.0), np.maximum(-power, 0.0)
         flows = np.stack([out, into, into * charger], axis=1)
@@ -158,14 +161,14 @@ class EnergyFollowsPower(Watcher):
         self.findings.add(found)
 
 
-def _voltage(chunk: Chunk, at: Series) -> Numbers:
+def _voltage(chunk: Chunk, at: Series, longest: float) -> Numbers:
     """The pack's voltage at the frames of another message, NaN where it is too old."""
     series = chunk.sound(B2V_ST3)
     if not len(series):
         return np.full(len(at), np.nan)
     rows = latest(series, at)
     voltage = series.value("upack_batt")[rows]
-    voltage[(rows < 0) | (at.time - series.time[rows] > LONGEST)] = np.nan
+    voltage[(rows < 0) | (at.time - series.time[rows] > longest)] = np.nan
     return voltage
 
 
@@ -191,6 +194,6 @@ RULE = Rule(
     clause="Table 4 rows 1 and 2 (5.1.4), Table 1 rows 3 and 4 (5.1.1)",
     severity=Severity.SHOULD,
     judges=("BMU",),
-    tolerances=(_ENERGY, _OFFSET, _SHARE),
+    tolerances=(_ENERGY, _OFFSET, _SHARE, SUMMED_OVER),
     watch=EnergyFollowsPower,
 )

@@ -101,16 +101,18 @@ _NOWHERE = Text(
 class _Extremes(Watcher):
     """Holds extremes that are told against the cycles."""
 
+    wants_cycles = True
+
     def __init__(
         self, findings: Findings, kind: Kind, allowed: Tolerance, lasting: Tolerance, about: str
     ) -> None:
         super().__init__(findings)
         self.kind = kind
         self.allowed = findings.limit(allowed)
-        self._stream = CycleStream(kind.readings)
+        self._stream = CycleStream(kind.readings, findings)
         self._told: list[tuple[Told, History, Runs]] = []
         for told in kind.told:
-            history = History(told.message, told.value, raw=(told.csc, told.position))
+            history = History(findings, told.message, told.value, raw=(told.csc, told.position))
             signal = told.name(told.value if about == "value" else told.position)
             subject = Subject(told.message.SENDER, told.message.NAME, signal)
             runs = Runs(findings, subject, int(findings.limit(lasting)) + 1)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from swapcan.messages import B2V_ST0, B2V_ST1
 from swapcan.rules.pack.alarm_watcher import AlarmWatcher
 from swapcan.rules.pack.alarms import Alarms, alarm_bits
+from swapcan.rules.shared import AROUND
 from typedcan.judge.findings import Said
 from typedcan.judge.rule import Rule, Severity
 from typedcan.report.language import Text
@@ -57,5 +58,6 @@ RULE = Rule(
     clause="Table 1 row 16 (5.1.1), Table 2 (5.1.2), Table 12 (5.1.11)",
     severity=Severity.SHOULD,
     judges=("BMU",),
+    tolerances=(AROUND,),
     watch=FaultCount,
 )

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from swapcan.rules.shared import TOLD_BEFORE
 from typedcan.judge.chunk import Chunk
+from typedcan.judge.tolerance import Limits
 from typedcan.wire.message import Message
 
 _KEPT = 512
 """Frames: cycles that have waited for the pack's totals come two seconds late."""
-
-_PERIODS = 2.5
-"""After so many periods what was told is no longer in force."""
 
 
 class History:
@@ -20,15 +19,23 @@ class History:
 
     Parameters
     ----------
+    limits
+        For how long what was told counts.
     message
         Which; it has a period.
     fields, raw
         Those whose physical values, and those whose raw ones are wanted.
     """
 
-    def __init__(self, message: type[Message], *fields: str, raw: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self,
+        limits: Limits,
+        message: type[Message],
+        *fields: str,
+        raw: tuple[str, ...] = (),
+    ) -> None:
         self._message = message
-        self._in_force = _PERIODS * (message.PERIOD or 0.0)
+        self._in_force = limits.limit(TOLD_BEFORE) * (message.PERIOD or 0.0)
         self.time: NDArray[np.float64] = np.empty(0)
         """Seconds since the log's begin."""
         self.order: NDArray[np.int64] = np.empty(0, np.int64)

@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.rules.pack.runs import ROUNDING
+from swapcan.rules.shared import SUMMED_OVER
+from typedcan.judge.tolerance import Limits
 
 Numbers = NDArray[np.float64]
-
-LONGEST = 1.0
-"""Seconds between two rows that are summed over; a longer pause is a gap."""
 
 
 class Integral:
@@ -22,7 +21,9 @@ class Integral:
         How many values.
     """
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, count: int, limits: Limits) -> None:
+        self.longest = limits.limit(SUMMED_OVER)
+        """Seconds between two rows that are summed over; a longer pause is a gap."""
         self.totals: Numbers = np.zeros(count)
         """The integrals up to the last row; what is of interest is how they grow."""
         self.gaps = 0
@@ -49,7 +50,7 @@ class Integral:
         self._time, self._values = time[-1:].copy(), values[-1:].copy()
         steps = np.diff(time)
         growth = (values[1:] + values[:-1]) / 2 * steps[:, None]
-        gap = ~((steps >= 0) & (steps <= LONGEST + ROUNDING)) | np.isnan(growth).any(axis=1)
+        gap = ~((steps >= 0) & (steps <= self.longest + ROUNDING)) | np.isnan(growth).any(axis=1)
         if apart is not None:
             gap |= apart
         growth[gap] = 0.0

@@ -7,6 +7,7 @@ from operator import attrgetter
 
 from swapcan.messages import B2V_Temp
 from swapcan.rules.pack.announced import Announced
+from swapcan.rules.shared import ANOTHER_PACK
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -34,7 +35,7 @@ RULE = Rule(
     clause="Table 13 row 8 (5.1.12), Table 10 (5.1.9)",
     severity=Severity.MUST,
     judges=("BMU",),
-    tolerances=(_SECONDS,),
+    tolerances=(_SECONDS, ANOTHER_PACK),
     watch=partial(
         Announced,
         message=B2V_Temp,

@@ -41,6 +41,8 @@ _Place = tuple[str, int, int]
 class ReadingMissing(Watcher):
     """Follows each reading of the complete cycles while it has no value."""
 
+    wants_cycles = True
+
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._limit = findings.limit(SECONDS)

@@ -6,16 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.messages import B2V_ST1
+from swapcan.rules.shared import ANOTHER_PACK
 from typedcan.judge.chunk import Chunk
-
-_SILENCE = 3.0
-"""Seconds without B2V_ST1, which is sent every 100 ms: nobody swaps a pack faster."""
+from typedcan.judge.tolerance import Limits
 
 
 class Silences:
     """Counts the silences of the BMU."""
 
-    def __init__(self) -> None:
+    def __init__(self, limits: Limits) -> None:
+        self._longest = limits.limit(ANOTHER_PACK)
         self._ends = np.empty(0, np.int64)
         self.is_new = False
         """Whether one ended in the last chunk."""
@@ -29,7 +29,7 @@ class Silences:
         """Look for silences that end in a chunk."""
         series = chunk.frames(B2V_ST1)
         steps = np.diff(series.time)
-        ends = series.order[1:][(steps > _SILENCE) | (steps < -_SILENCE)]
+        ends = series.order[1:][(steps > self._longest) | (steps < -self._longest)]
         self.is_new = len(ends) > 0
         if self.is_new:
             self._ends = np.concatenate([self._ends, ends])

@@ -10,6 +10,7 @@ import numpy as np
 from swapcan.messages import B2V_ST2, B2V_BattInfo1
 from swapcan.rules.pack.integral import Integral
 from swapcan.rules.pack.runs import ROUNDING
+from swapcan.rules.shared import SUMMED_OVER
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -77,7 +78,7 @@ class SocFollowsCurrent(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._integral = Integral(1)
+        self._integral = Integral(1, findings)
         self._points: list[_Point] = []
         self._rows = 0
         self._capacities: list[tuple[float, float]] = []
@@ -188,6 +189,6 @@ RULE = Rule(
     clause="Table 1 rows 1 and 3 (5.1.1), Table 13 row 1 (5.1.12)",
     severity=Severity.SHOULD,
     judges=("BMU",),
-    tolerances=(_SECONDS, _CHANGE, _OFFSET, _SHARE),
+    tolerances=(_SECONDS, _CHANGE, _OFFSET, _SHARE, SUMMED_OVER),
     watch=SocFollowsCurrent,
 )

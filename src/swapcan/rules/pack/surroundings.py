@@ -11,13 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from swapcan.rules.shared import AROUND
 from typedcan.judge.series import Series
+from typedcan.judge.tolerance import Limits
 
 SIDE = 2
 """Frames on each side."""
-
-APART = 0.25
-"""Seconds between two frames around; what is sent every 100 ms has not stopped then."""
 
 
 class Rows(NamedTuple):
@@ -63,7 +62,8 @@ class Surrounded(NamedTuple):
 class Surroundings:
     """Hands out each frame once it is known what is around it."""
 
-    def __init__(self) -> None:
+    def __init__(self, limits: Limits) -> None:
+        self._apart = limits.limit(AROUND)
         self._waiting: Rows | None = None
         self._others: Rows | None = None
 
@@ -73,7 +73,7 @@ class Surroundings:
         self._others = others if self._others is None else self._others.followed_by(others)
         behind = np.searchsorted(self._others.order, self._waiting.order)
         ready = behind + SIDE <= len(self._others.order)
-        ready |= self._waiting.time + SIDE * APART < now
+        ready |= self._waiting.time + SIDE * self._apart < now
         return self._ready(len(ready) if ready.all() else int(ready.argmin()))
 
     def finish(self) -> Surrounded | None:
@@ -94,5 +94,5 @@ class Surroundings:
         middle = np.clip(behind, SIDE, len(others.time) - SIDE)
         rows = middle + np.arange(-SIDE, SIDE)[:, None]
         times = np.insert(others.time[rows], SIDE, frames.time, axis=0)
-        near = np.abs(np.diff(times, axis=0)) <= APART
+        near = np.abs(np.diff(times, axis=0)) <= self._apart
         return Surrounded(frames, others.data[rows], (middle == behind) & near.all(axis=0))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from swapcan.rules.pack.extremes import PROBE_TEMPERATURES, ExtremesPlace
+from swapcan.rules.shared import CYCLES_APART, TOLD_BEFORE
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -41,6 +42,6 @@ RULE = Rule(
     clause="Table 7 rows 4 to 7 (5.1.6), Table 10 (5.1.9)",
     severity=Severity.MUST,
     judges=("BMU",),
-    tolerances=(_DEGREES, _CYCLES),
+    tolerances=(_DEGREES, _CYCLES, CYCLES_APART, TOLD_BEFORE),
     watch=partial(ExtremesPlace, kind=PROBE_TEMPERATURES, allowed=_DEGREES, lasting=_CYCLES),
 )

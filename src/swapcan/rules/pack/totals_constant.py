@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from swapcan.messages import B2V_BattInfo1, B2V_BattInfo2
 from swapcan.rules.pack.silences import Silences
+from swapcan.rules.shared import ANOTHER_PACK
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -26,7 +27,7 @@ class TotalsConstant(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._silences = Silences()
+        self._silences = Silences(findings)
         self._last: dict[str, tuple[int, int]] = {}  # by field: value, silences before it
 
     def feed(self, chunk: Chunk) -> None:
@@ -82,5 +83,6 @@ RULE = Rule(
     clause="Table 13 (5.1.12)",
     severity=Severity.MUST,
     judges=("BMU",),
+    tolerances=(ANOTHER_PACK,),
     watch=TotalsConstant,
 )

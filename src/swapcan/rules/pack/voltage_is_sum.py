@@ -12,6 +12,7 @@ from swapcan.messages import B2V_ST3
 from swapcan.rules.pack.cycles import Cycles, CycleStream, Numbers, around
 from swapcan.rules.pack.history import History
 from swapcan.rules.pack.runs import Runs
+from swapcan.rules.shared import CYCLES_APART, TOLD_BEFORE
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -64,11 +65,13 @@ class VoltageIsSum(Watcher):
     multiple of the voltage throughout the first cycles.
     """
 
+    wants_cycles = True
+
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._allowed = findings.limit(_SHARE)
-        self._stream = CycleStream(CELLS)
-        self._history = History(B2V_ST3, "upack_batt")
+        self._stream = CycleStream(CELLS, findings)
+        self._history = History(findings, B2V_ST3, "upack_batt")
         subject = Subject(B2V_ST3.SENDER, B2V_ST3.NAME, _VOLTAGE)
         self._runs = Runs(findings, subject, int(findings.limit(_CYCLES)) + 1)
         self._first: list[Rows] = []
@@ -147,6 +150,6 @@ RULE = Rule(
     clause="Table 1 row 4 (5.1.1), Table 9 (5.1.8)",
     severity=Severity.SHOULD,
     judges=("BMU",),
-    tolerances=(_SHARE, _CYCLES),
+    tolerances=(_SHARE, _CYCLES, CYCLES_APART, TOLD_BEFORE),
     watch=VoltageIsSum,
 )

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from swapcan.messages import V2B_CMD
 from typedcan.judge.chunk import Chunk
-from typedcan.judge.measure.last_known import fresh_for
 from typedcan.judge.series import Series, latest
 
 _NEVER = 15  # an alive counter without meaning
@@ -36,7 +35,7 @@ class Commands:
         code = np.where(rows >= 0, commands.raw("hv_on_off")[rows], self._code)
         self._time, self._code = float(time[-1]), int(code[-1])
         beside = latest(commands, at)
-        known = (beside >= 0) & (at.time - time[beside] <= fresh_for(V2B_CMD))
+        known = (beside >= 0) & (at.time - time[beside] <= commands.lasts)
         return known, code[beside]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from swapcan.messages import B2V_RQ, B2V_ST1, V2B_CMD, HvCommand, HvOffRequest
+from swapcan.rules.shared import ANOTHER_PACK
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
@@ -25,9 +26,6 @@ _SECONDS = Tolerance(
     ),
 )
 
-_ANOTHER_PACK = 1.0
-"""s of silence of the BMU after which it may be another one, whose requests are its own."""
-
 _SUBJECT = Subject("VCU", "V2B_CMD", "V2B_CMD_HV_OnOff")
 
 _IGNORED = Text(
@@ -42,7 +40,8 @@ class HvOffRequested(LastingWatcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._ignored = self.lasting(_SUBJECT, findings.limit(_SECONDS), V2B_CMD)
-        self._heard = Since(_ANOTHER_PACK)
+        self._another = findings.limit(ANOTHER_PACK)
+        self._heard = Since(self._another)
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the commands while a request is in force."""
@@ -53,7 +52,7 @@ class HvOffRequested(LastingWatcher):
             return
         request, pack = LastKnown(requests, commands), LastKnown(states, commands)
         judged = request.is_code("hv_off", HvOffRequest.REQUEST_HV_OFF) & pack.known
-        judged &= requests.time[request.rows] >= heard[pack.rows] - _ANOTHER_PACK
+        judged &= requests.time[request.rows] >= heard[pack.rows] - self._another
         wrong = commands.raw("hv_on_off") != HvCommand.HV_OFF
         self._ignored.feed(commands, judged, wrong, _describe)
 
@@ -73,6 +72,6 @@ RULE = Rule(
     clause="Table 3 row 2 (5.1.3), 5.1.11",
     severity=Severity.MUST,
     judges=("VCU",),
-    tolerances=(_SECONDS,),
+    tolerances=(_SECONDS, ANOTHER_PACK),
     watch=HvOffRequested,
 )

@@ -49,7 +49,7 @@ class HvOnInTime(LastingWatcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._stays = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST1)
-        self._on = Since(fresh_for(V2B_CMD), seen=True)
+        self._on = Since(fresh_for(V2B_CMD, findings), seen=True)
         self._open = Since(math.inf)
 
     def feed(self, chunk: Chunk) -> None:

@@ -39,7 +39,7 @@ class HvOnlyOnCommand(Watcher):
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
         self._before = findings.limit(_BEFORE)
-        self._heard = Since(fresh_for(V2B_CMD))
+        self._heard = Since(fresh_for(V2B_CMD, findings))
         self._on = -math.inf
 
     def feed(self, chunk: Chunk) -> None:

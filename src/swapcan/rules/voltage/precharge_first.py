@@ -31,7 +31,7 @@ class PrechargeFirst(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._open = Since(fresh_for(B2V_ST0))
+        self._open = Since(fresh_for(B2V_ST0, findings))
         # Orders of the last frames, as floats; -1: none.
         self._closed = self._precharged = self._told = -1.0
 
@@ -51,7 +51,7 @@ class PrechargeFirst(Watcher):
             for row in closes.tolist():
                 seconds = float(relays.time[row - 1] - opened[row - 1])
                 step = float(relays.time[row] - relays.time[row - 1])
-                if step > fresh_for(B2V_ST0) or seconds < _WATCHED or not shown[row]:
+                if step > relays.lasts or seconds < _WATCHED or not shown[row]:
                     continue
                 proof = float(precharged[row])
                 if len(told) and states.order[state.rows[row]] < relays.order[row]:

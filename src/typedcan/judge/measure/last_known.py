@@ -8,14 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.judge.series import Series, latest
+from typedcan.judge.tolerance import LAST_KNOWN, Limits
 from typedcan.wire.message import Message
 
-_PERIODS = 3.5  # two frames in a row may be lost
 
-
-def fresh_for(message: type[Message]) -> float:
+def fresh_for(message: type[Message], limits: Limits) -> float:
     """Seconds for which a frame of a message counts; for ever where it has no period."""
-    return math.inf if message.PERIOD is None else _PERIODS * message.PERIOD
+    return math.inf if message.PERIOD is None else limits.limit(LAST_KNOWN) * message.PERIOD
 
 
 class LastKnown:
@@ -26,9 +25,9 @@ class LastKnown:
     of
         Of which message.
     at
-        LastKnown which frames; what stands at the row of before means nothing.
+        Beside which frames; what stands at the row of before means nothing.
     age
-        Seconds for which a frame counts; None: as `fresh` has it.
+        Seconds for which a frame counts; None: as `fresh_for` has it.
 
     ``known`` says at which of them there is one that is fresh.
     """
@@ -39,9 +38,7 @@ class LastKnown:
         self.rows = np.maximum(rows, 0)
         self._of = of
         if len(of):
-            self.known &= at.time - of.time[self.rows] <= (
-                fresh_for(of.message) if age is None else age
-            )
+            self.known &= at.time - of.time[self.rows] <= (of.lasts if age is None else age)
 
     def raw(self, field: str) -> NDArray[np.int64]:
         """The raw values of a field; they mean nothing where the message is not known."""

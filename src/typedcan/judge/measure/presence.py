@@ -10,11 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.judge.decoded import DecodedChunk
+from typedcan.judge.tolerance import SILENCE, Limits
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
-
-SILENT = 5.0
-"""A node is silent after so many of the shortest period of what it sends."""
 
 _Key = TypeVar("_Key")
 
@@ -97,7 +95,8 @@ class Presence:
 class Presences:
     """Follows all nodes and messages through one log."""
 
-    def __init__(self, protocol: Protocol) -> None:
+    def __init__(self, protocol: Protocol, limits: Limits) -> None:
+        self._silent = limits.limit(SILENCE)
         self.nodes: dict[str, Presence] = {}
         self.messages: dict[type[Message], Presence] = {}
         self._protocol = protocol
@@ -131,7 +130,7 @@ class Presences:
             and message in self.messages
             and (order is None or self.messages[message].first_order <= order)
         )
-        return SILENT * min(periods, default=math.inf)
+        return self._silent * min(periods, default=math.inf)
 
     def silent_at(self, end: float) -> list[Silence]:
         """The nodes that are silent when the log ends."""

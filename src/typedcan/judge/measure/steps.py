@@ -19,11 +19,9 @@ from typedcan.judge.measure.asked import Asked, requests_of
 from typedcan.judge.measure.presence import Presences, Silence, Start
 from typedcan.judge.measure.spread import Spread, spread_of
 from typedcan.judge.series import Series
+from typedcan.judge.tolerance import ASKED_ANEW, Limits
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef, Protocol
-
-_REQUEST_ENDS = 3.0
-"""Periods after which a message that is sent on request is taken to be requested anew."""
 
 _KEY_BITS = 8
 """Bits of a group, and of a frame number, of which `key_of` makes one number."""
@@ -150,8 +148,9 @@ class Timing:
 class StepMeter:
     """Measures the steps of one log, chunk after chunk."""
 
-    def __init__(self, protocol: Protocol) -> None:
-        self.presences = Presences(protocol)
+    def __init__(self, protocol: Protocol, limits: Limits) -> None:
+        self.presences = Presences(protocol, limits)
+        self._asked_anew = limits.limit(ASKED_ANEW)
         self._protocol = protocol
         self._asked = Asked(protocol)
         self._requested = frozenset(requests_of(protocol))
@@ -198,7 +197,7 @@ class StepMeter:
         if len(steps) and steps.length.min() < 0:
             steps = steps.only(steps.length >= 0)
         if steps.message in self._protocol.conditional:
-            steps = steps.only(steps.length <= _REQUEST_ENDS * period)
+            steps = steps.only(steps.length <= self._asked_anew * period)
         if silences:
             # The last silence that ended by then: a step that is not across it is across none.
             ends = np.array([silence.end for silence in silences])

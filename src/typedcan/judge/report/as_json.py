@@ -6,7 +6,8 @@ them an object:
 
 - ``log``, ``digest`` (SHA-256), ``verdict`` ("conforms", "violates", "not_judged");
 - ``begin`` (time stamp of the first frame), ``begin_utc`` (null where it is no date), ``seconds``;
-- ``frames`` (by message; the empty name counts those of none), ``nodes``, ``seen``, ``damage``;
+- ``frames`` (by message; the empty name counts those of none), ``nodes``, ``seen``, ``damage``,
+  ``tolerances`` that several rules go by, as those of a rule;
 - ``rules``: ``id``, ``title``, ``purpose``, ``clause``, ``severity`` ("must", "should", "info"),
   ``judges``, ``tolerances`` (``name``, ``value`` in force, ``default``, ``unit``, ``text``),
   ``status`` ("passed", "failed", "noted", "not_judged"), ``examined``, ``count``, ``frames``,
@@ -34,6 +35,7 @@ from typedcan.judge.findings import Occurrence
 from typedcan.judge.judgement import Judgement, RuleResult
 from typedcan.judge.measure.periods import Periods
 from typedcan.judge.report import facts, figures
+from typedcan.judge.tolerance import SHARED, Tolerance
 from typedcan.report.language import Language, Text
 from typedcan.shell.printing import printable_json
 
@@ -64,6 +66,7 @@ def _log(judgement: Judgement, language: Language) -> dict[str, Any]:
         "nodes": list(judgement.nodes),
         "seen": list(judgement.seen),
         "damage": list(judgement.damage),
+        "tolerances": _tolerances(judgement, SHARED, language),
         "rules": [_rule(judgement, result, language) for result in judgement.results],
         "periods": [_periods(each) for each in judgement.periods],
         "load": [
@@ -82,16 +85,7 @@ def _rule(judgement: Judgement, result: RuleResult, language: Language) -> dict[
         "clause": rule.clause,
         "severity": rule.severity.name.lower(),
         "judges": list(rule.judges),
-        "tolerances": [
-            {
-                "name": each.name,
-                "value": _plain(facts.in_force(judgement, each)),
-                "default": _plain(each.value),
-                "unit": each.unit,
-                "text": each.text.within(language),
-            }
-            for each in rule.tolerances
-        ],
+        "tolerances": _tolerances(judgement, rule.tolerances, language),
         "status": result.status.name.lower(),
         "examined": result.examined,
         "count": result.count,
@@ -99,6 +93,21 @@ def _rule(judgement: Judgement, result: RuleResult, language: Language) -> dict[
         "worst": None if result.worst is None else _occurrence(result.worst, language),
         "occurrences": [_occurrence(each, language) for each in result.occurrences],
     }
+
+
+def _tolerances(
+    judgement: Judgement, tolerances: Iterable[Tolerance], language: Language
+) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": each.name,
+            "value": _plain(facts.in_force(judgement, each)),
+            "default": _plain(each.value),
+            "unit": each.unit,
+            "text": each.text.within(language),
+        }
+        for each in tolerances
+    ]
 
 
 def _occurrence(found: Occurrence, language: Language) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typedcan.judge.judgement import Judgement, RuleResult, Status, Verdict
 from typedcan.judge.measure.load import Load
 from typedcan.judge.report import words
 from typedcan.judge.rule import Rule, Severity
-from typedcan.judge.tolerance import Tolerance
+from typedcan.judge.tolerance import SHARED, Tolerance
 from typedcan.report.language import Language
 from typedcan.shell.printing import printable
 
@@ -40,6 +40,12 @@ def judged_of(judgement: Judgement, rule: Rule) -> tuple[str, ...]:
 def unseen(judgement: Judgement) -> tuple[str, ...]:
     """The judged nodes that sent nothing."""
     return tuple(node for node in judgement.nodes if node not in judgement.seen)
+
+
+def tolerances(judgement: Judgement) -> tuple[Tolerance, ...]:
+    """Those of the rules, in their order, and those that several go by."""
+    own = (each for result in judgement.results for each in result.rule.tolerances)
+    return tuple(dict.fromkeys((*own, *SHARED)))
 
 
 def in_force(judgement: Judgement, tolerance: Tolerance) -> float:

@@ -105,11 +105,8 @@ def _tolerances(judgement: Judgement, language: Language) -> Markup:
             figures.number(each.value),
             each.text.within(language),
         )
-        for result in judgement.results
-        for each in result.rule.tolerances
+        for each in facts.tolerances(judgement)
     ]
-    if not rows:
-        return Markup("")
     headings = (words.TOLERANCE, words.VALUE, words.UNIT, words.DEFAULT, words.MEANING)
     names = tuple(heading.within(language) for heading in headings)
     return element(

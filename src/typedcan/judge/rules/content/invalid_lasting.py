@@ -15,8 +15,7 @@ from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.content.codes import whole_fields
 from typedcan.judge.scope import Scope
 from typedcan.judge.series import Series
-from typedcan.judge.tolerance import Tolerance
-from typedcan.logs.checks import PERIODS
+from typedcan.judge.tolerance import SILENCE, Tolerance
 from typedcan.model.signal_state import SignalState
 from typedcan.report.language import Text
 from typedcan.wire.fields import Field, FilledField
@@ -67,7 +66,7 @@ class InvalidLasting(Watcher):
     def __init__(self, findings: Findings, fields: Sequence[tuple[type[Message], Field]]) -> None:
         super().__init__(findings)
         self._fields = fields
-        self._limit = findings.limit(SECONDS)
+        self._limit, self._silent = findings.limit(SECONDS), findings.limit(SILENCE)
         self._open: dict[tuple[type[Message], str], _Run] = {}
 
     def feed(self, chunk: Chunk) -> None:
@@ -94,7 +93,7 @@ class InvalidLasting(Watcher):
     def _follow(self, series: Series, field: Field, none: NDArray[np.bool_]) -> None:
         """Go on with the run of before, and find those that begin among the new rows."""
         message, time = series.message, series.time[series.first :]
-        silent = np.diff(time, prepend=series.time[0]) > PERIODS * (message.PERIOD or 0.0)
+        silent = np.diff(time, prepend=series.time[0]) > self._silent * (message.PERIOD or 0.0)
         goes_on = none & ~silent
         begins = np.flatnonzero(none & ~(goes_on & np.append(False, none[:-1])))
         ends = np.flatnonzero(none & ~np.append(goes_on[1:], False))

@@ -13,7 +13,7 @@ from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
-from typedcan.logs.checks import PERIODS
+from typedcan.judge.tolerance import SILENCE
 from typedcan.logs.checksums import counter_places
 from typedcan.model.protection import Counter
 from typedcan.report.language import Text
@@ -82,7 +82,10 @@ class CounterSequence(Watcher):
         """For each sound row, how many frames and how many pauses there were up to it."""
         place = self._places[message]
         steps = np.diff(frames.time, prepend=frames.time[:1])[frames.first :]
-        pauses = np.cumsum(steps > PERIODS * (message.PERIOD or np.inf)) + place.pauses
+        pauses = (
+            np.cumsum(steps > self.findings.limit(SILENCE) * (message.PERIOD or np.inf))
+            + place.pauses
+        )
         rows = np.arange(frames.fresh)
         if sound.fresh < frames.fresh:
             rows = np.searchsorted(frames.order[frames.first :], sound.order[sound.first :])

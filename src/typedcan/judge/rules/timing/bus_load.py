@@ -11,7 +11,7 @@ from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.traffic import Channel, Traffic, bits_of
 from typedcan.judge.rule import Rule, Severity, Watcher
-from typedcan.judge.tolerance import Tolerance
+from typedcan.judge.tolerance import SET_BACK, Tolerance
 from typedcan.model.frame_time import Bits
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
@@ -22,9 +22,6 @@ _SHARE = Tolerance(
     value=0.1,
     text=Text("of the load that the periods make", "相对于按周期计算的负载率的比例"),
 )
-
-_SET_BACK = 1.0
-"""Seconds; less is disorder between the channels of a log."""
 
 _MORE = Text(
     "its periodic messages load {channel} by {load:.2%}, {expected:.2%} is what their periods make",
@@ -50,7 +47,7 @@ class BusLoad(Watcher):
         time = chunk.block.timestamp - chunk.begin
         steps = np.diff(time, prepend=self._last)
         # Where the clock was set back, more time passed than the log's end tells.
-        back = steps[steps < -_SET_BACK]
+        back = steps[steps < -self.findings.limit(SET_BACK)]
         self._back -= float(back.sum())
         self._parts += len(back)
         self._last = float(time[-1])

@@ -88,7 +88,7 @@ class TurnWatcher(Watcher):
     def _begin(self, cycle: TurnOrder, rows: Rows) -> None:
         """Judge the frames in which the order was found."""
         first = int(np.isin(rows.keys, cycle.keys).argmax())
-        self._turns = Turns(cycle, int(rows.keys[first]))
+        self._turns = Turns(cycle, int(rows.keys[first]), self.findings)
         row = first + 1
         while row < len(rows.keys) and self._turns is not None:
             row = self._follow(self._turns, rows, row, len(rows.keys), NO_ROWS)

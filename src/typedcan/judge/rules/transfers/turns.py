@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from typedcan.judge.rules.transfers.turn_order import NO_ROWS, Rows, TurnOrder
+from typedcan.judge.tolerance import TURN_DOUBLED, TURN_LATE, Limits
 
 
 class Kind(Enum):
@@ -56,9 +57,12 @@ class Turns:
         The order.
     key
         Of the farthest frame.
+    limits
+        How late a frame may be, and how soon it came twice.
     """
 
-    def __init__(self, cycle: TurnOrder, key: int) -> None:
+    def __init__(self, cycle: TurnOrder, key: int, limits: Limits) -> None:
+        self._doubled, self._late_for = limits.limit(TURN_DOUBLED), limits.limit(TURN_LATE)
         self._cycle = cycle
         self._last = key
         self._turn = cycle.place[key]
@@ -115,7 +119,7 @@ class Turns:
             del self._passed[back]
             self._late += 1
             self._faults.append(Fault(Kind.LATE, key, time, order, size))
-        elif not 0 < ahead <= size // 2 and self._since(rows, row) < 0.5 * cycle.seconds:
+        elif not 0 < ahead <= size // 2 and self._since(rows, row) < self._doubled * cycle.seconds:
             self._faults.append(Fault(Kind.DOUBLED, key, time, order, size))
         else:
             self._go_to(self._turn + (ahead or size), time, order)
@@ -123,7 +127,7 @@ class Turns:
     def _is_late(self, rows: Rows, row: int, turn: int) -> bool:
         """Whether a row belongs to a turn that was passed over, not to the next one of its key."""
         near = turn in self._passed and turn >= self._turn - len(self._cycle) // 2
-        return near and self._since(rows, row) < 1.5 * self._cycle.seconds
+        return near and self._since(rows, row) < self._late_for * self._cycle.seconds
 
     def _since(self, rows: Rows, row: int) -> float:
         """Seconds since the key of a row came."""
