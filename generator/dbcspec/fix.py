@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 
+from typedcan.databases.dbc_text import UNFINISHED_CODES
+
 _HIDDEN = re.compile(r'"(?:\\"|[^"])*"|//[^\n]*?(?=\r?(?:\n|\Z))')
 _HIDDEN_CHARACTER = "\0"
 _BREAK = re.compile(r"\r\n|\r|\n")
@@ -93,6 +95,10 @@ def repair_form(text: str) -> tuple[str, list[Repair]]:
         if line.end not in ("\r\n", ""):
             changed.setdefault("not CRLF at the end of the line", []).append(line.number)
         formed.append(mended)
+    if UNFINISHED_CODES.search(text):
+        last = max(index for index, each in enumerate(formed) if each)
+        formed[last] += " ;"
+        changed["no semicolon at the end of the file"] = [lines[last].number]
     if lines and not lines[-1].end:
         changed.setdefault("no line break at the end of the file", []).append(lines[-1].number)
     for fault, numbers in changed.items():

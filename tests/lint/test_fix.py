@@ -68,6 +68,14 @@ def test_a_worn_file_gets_its_form_back_and_every_fault_is_named() -> None:
     ]
 
 
+@pytest.mark.parametrize("end", ["", "\r\n", "\r\n\r\n"])
+def test_codes_at_the_end_get_the_semicolon_that_they_lack(end: str) -> None:
+    text, done = fix_dbc(SOUND.removesuffix(" ;\r\n") + end)
+    assert text.rstrip() == SOUND.rstrip()
+    assert "line 13: mended: no semicolon at the end of the file" in done
+    assert fix_dbc(text) == (text, [])
+
+
 @over_all_fixtures
 def test_a_mended_file_means_what_it_meant(path: Path, tmp_path: Path) -> None:
     data = path.read_bytes()

@@ -163,6 +163,16 @@ def test_a_file_cut_in_a_line_says_so(tmp_path: Path) -> None:
     assert refusal(file(tmp_path, cut)) == ": the last statement is cut off"
 
 
+def test_codes_at_the_end_that_lack_their_semicolon_only_are_there(tmp_path: Path) -> None:
+    whole, ended = read_dbc(file(tmp_path, SMALL)), SMALL.rstrip().removesuffix(";")
+    for text in (ended, ended.rstrip(), f"{ended}\n\n"):
+        assert read_dbc(file(tmp_path, text)) == whole
+    for cut in (ended.rstrip()[:-1], ended.replace(' 1 "On"', " 1")):
+        assert "cut off" in refusal(file(tmp_path, cut)) or "never closed" in refusal(
+            file(tmp_path, cut)
+        )
+
+
 def test_mutilated_files_are_read_or_refused_and_nothing_else(tmp_path: Path) -> None:
     chance = random.Random(1)
     for _ in range(200):

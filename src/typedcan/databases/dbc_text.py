@@ -47,6 +47,11 @@ _DEFINITION = re.compile(r'\bBA_DEF_\s+(?:\w+_\s+)?("[^"]*")\s+(\w+)([^;]*);')
 _VALUE = re.compile(r'\bBA_\s+("[^"]*")[^;]*?("[^"]*")?\s*;')
 _SELECTORS = re.compile(r"\bSG_MUL_VAL_[^;]*;")
 _RANGE = re.compile(r"(\d{1,20})\s*-\s*(\d{1,20})")
+UNFINISHED_CODES = re.compile(
+    r'(?m)^[ \t]*VAL_\s+\d+\s+\w+(?:\s+-?\d+\s+"(?:[^"\\]|\\.)*+")++\s*\Z'
+)
+"""Codes at the end of a file that lack their semicolon only."""
+
 _NO_LINE_END = re.compile(r"[^\n]")
 _QUOTED = re.compile(r'"((?:\\"|[^"])*?)"')
 
@@ -86,7 +91,8 @@ class DbcText:
         for start, end, new in sorted([*self._orphans(), *self._attributes()]):
             pieces += (self._text[done:start], new)
             done = end
-        return "".join((*pieces, self._text[done:]))
+        unfinished = UNFINISHED_CODES.search(self._text)
+        return "".join((*pieces, self._text[done:], ";" if unfinished else ""))
 
     def _line(self, position: int) -> int:
         return bisect_right(self._starts, position) + 1
