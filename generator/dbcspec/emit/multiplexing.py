@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from typedcan.model.protocol import Message, Signal
 
@@ -29,14 +29,15 @@ def selector_lists(message: Message) -> Iterator[tuple[Signal, str]]:
     )
     if not plain:
         for signal in multiplexed:
-            yield signal, ", ".join(f"{low}-{high}" for low, high in _ranges(signal.selectors))
+            yield signal, ", ".join(f"{low}-{high}" for low, high in ranges(signal.selectors))
 
 
-def _ranges(numbers: tuple[int, ...]) -> list[tuple[int, int]]:
-    ranges: list[tuple[int, int]] = []
+def ranges(numbers: Iterable[int]) -> list[tuple[int, int]]:
+    """The numbers as the fewest ranges, both ends included."""
+    found: list[tuple[int, int]] = []
     for number in sorted(numbers):
-        if ranges and ranges[-1][1] + 1 == number:
-            ranges[-1] = (ranges[-1][0], number)
+        if found and found[-1][1] + 1 == number:
+            found[-1] = (found[-1][0], number)
         else:
-            ranges.append((number, number))
-    return ranges
+            found.append((number, number))
+    return found

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typedcan.model.protocol import Message, Protocol, Signal
+from collections.abc import Mapping
+
+from typedcan.model.protocol import Protocol, Signal
 
 _LONGEST_LINE = 100
 
@@ -10,13 +12,12 @@ Conditions = tuple[tuple[int, tuple[int, ...]], ...]
 """Which raw values the selectors must have, outermost first: index of its field, and values."""
 
 
-def conditions(message: Message, ordered: list[Signal], signal: Signal) -> Conditions:
-    """When a signal is there; ``ordered`` has the signals as their fields are."""
-    by_name = {each.name: each for each in message.signals}
+def conditions(signal: Signal, by_name: Mapping[str, tuple[int, Signal]]) -> Conditions:
+    """When a signal is there; ``by_name`` has the readable ones and the places of their fields."""
     found: list[tuple[int, tuple[int, ...]]] = []
-    while signal.multiplexer in by_name and len(found) < len(ordered):
-        selector = by_name[signal.multiplexer]
-        found.insert(0, (ordered.index(selector), signal.selectors))
+    while signal.multiplexer:
+        index, selector = by_name[signal.multiplexer]
+        found.insert(0, (index, signal.selectors))
         signal = selector
     return tuple(found)
 

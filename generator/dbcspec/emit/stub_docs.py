@@ -6,6 +6,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
+from dbcspec.emit.multiplexing import ranges
 from typedcan.model.j1939 import pgn
 from typedcan.model.layout import float_limits
 from typedcan.model.numbers import number
@@ -28,15 +29,23 @@ def enum_doc(users: tuple[Signal, ...]) -> str:
     return line(f"Codes of {first.name}{more}{_cited(first.reference)}.")
 
 
-def field_doc(signal: Signal, says: str) -> str:
+def field_doc(signal: Signal, says: str, selector: str = "") -> str:
     """Of a field: title, limits, name in the DBC, place in the standard, what acts.
 
-    ``says`` is what it states where it is not given, if that is a statement.
+    ``says`` is what it states where it is not given, if that is a statement, ``selector`` the field
+    that selects its branch, if it is in one.
     """
     english = signal.english or signal.title or signal.name
     title = f" ({signal.title})" if signal.title not in ("", english) else ""
     text = f"{english}{title}: {_limits(signal)}. {signal.name}{_cited(signal.reference)}."
+    text += f" There while {selector} is {_ranges(signal.selectors)}." if selector else ""
     return _wrapped(text + _acting(signal) + (f" If not given: {says}." if says else ""))
+
+
+def _ranges(numbers: Sequence[int]) -> str:
+    """``0 to 2, 5``: the numbers, as few as that takes."""
+    runs = ranges(numbers)
+    return ", ".join(f"{low}" if low == high else f"{low} to {high}" for low, high in runs)
 
 
 def _acting(signal: Signal) -> str:
@@ -67,6 +76,7 @@ def message_doc(message: Message, said: Sequence[str], needed: Sequence[str]) ->
     while_ = f", sent {message.condition}" if message.condition else ""
     found = f", found by its PGN 0x{pgn(message.frame_id):04X}" if message.by_pgn else ""
     facts = f"Identifier 0x{message.frame_id:08X}{found}{_route(message)}{when}{while_}."
+    facts += f" {message.frame_kind}." if message.is_fd else ""
     if message.reference:
         facts += f" {message.reference}."
     title = f"{line(message.title)}.\n\n    " if message.title else ""
@@ -83,11 +93,11 @@ def _not_given(said: Sequence[str], needed: Sequence[str]) -> str:
 
 
 def _route(message: Message) -> str:
-    receivers = " and ".join(message.receivers)
-    if message.sender and receivers:
-        return f", {message.sender} to {receivers}"
-    if message.sender:
-        return f", from {message.sender}"
+    senders, receivers = " or ".join(message.senders), " and ".join(message.receivers)
+    if senders and receivers:
+        return f", {senders} to {receivers}"
+    if senders:
+        return f", from {senders}"
     return f", to {receivers}" if receivers else ""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from dbcspec.emit.stub_branches import Conditions, conditions
@@ -39,15 +40,19 @@ class StubField:
 def fields_of(message: Message, names: StubNames) -> list[StubField]:
     """The fields of a message, in the order in which a DBC reader lists its signals."""
     ordered = readable(message)
-    return [
-        _field(message, signal, index, conditions(message, ordered, signal), names)
-        for index, signal in enumerate(ordered)
-    ]
+    by_name = {signal.name: (index, signal) for index, signal in enumerate(ordered)}
+    return [_field(message, signal, index, by_name, names) for index, signal in enumerate(ordered)]
 
 
 def _field(
-    message: Message, signal: Signal, index: int, when: Conditions, names: StubNames
+    message: Message,
+    signal: Signal,
+    index: int,
+    by_name: Mapping[str, tuple[int, Signal]],
+    names: StubNames,
 ) -> StubField:
+    when = conditions(signal, by_name)
+    selector = by_name[signal.multiplexer][1].python_name if when else ""
     kind = kind_of(message, signal)
     absent = " | None" if when and kind is not Kind.FILLED else ""
     says = "" if when or kind is Kind.FILLED else _statement(signal)
@@ -57,7 +62,7 @@ def _field(
         annotation=_annotation(signal, kind, names) + absent,
         default="None" if when else None if signal.must_be_given else _default(signal, kind, names),
         says=says,
-        doc=field_doc(signal, says),
+        doc=field_doc(signal, says, selector),
         expression=_expression(signal, kind, f"v[{index}]", names.codes_of(signal)),
         conditions=when,
     )
