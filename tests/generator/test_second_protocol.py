@@ -183,3 +183,46 @@ def test_its_transfer_is_put_together_live_and_in_columns(project: Path) -> None
     assert converted.returncode == 0, converted.stderr
     [row] = pq.read_table(project / "drive" / "serial.parquet").to_pylist()
     assert (row["timestamp"], row["text"]) == (0.3, "A1-9")
+
+
+WATCHED = (
+    WITHOUT
+    + """
+import queue
+import can
+from acme._generated.messages import A_STATUS
+from acme._generated.protocol import PROTOCOL
+from typedcan.node.node import Node
+from typedcan.supervise import NotSeen, StateChanged
+from typedcan.wire.link import Fault
+
+with can.Bus("watched", "virtual") as near, can.Bus("watched", "virtual") as far, \\
+        can.Bus("watched", "virtual") as third, Node(PROTOCOL, "BBB", far) as b:
+    told = queue.SimpleQueue()
+    for kind in (StateChanged, Fault):
+        b.on(kind, told.put)
+    with Node(PROTOCOL, "AAA", near) as a:
+        a.set(A_STATUS(speed=12.5))
+        print(told.get(timeout=10))
+        frames = [third.recv(5) for _ in range(20)]
+        third.send(can.Message(arbitration_id=0x101, is_extended_id=False, data=bytes(8)))
+        print(told.get(timeout=10))
+        print(b.last(A_STATUS).message.speed)
+    print(told.get(timeout=10), told.get(timeout=10), sep="; ")
+spans = [later.timestamp - frame.timestamp for frame, later in zip(frames, frames[1:])]
+print(0.08 < sorted(spans)[10] < 0.12)
+"""
+)
+
+
+def test_nodes_send_its_messages_periodically_and_supervise_them(project: Path) -> None:
+    assert run(project, DBCSPEC, "generate").returncode == 0
+    done = run(project, WATCHED)
+    assert done.returncode == 0, done.stderr
+    alive, wrong, speed, lost, regular = done.stdout.splitlines()
+    assert "A_STATUS" in alive
+    assert "alive" in alive
+    assert wrong == "A_STATUS: checksum is 0x00, the bytes make 0x0A"  # CRC of seven 0, by hand
+    assert (speed, regular) == ("12.5", "True")
+    assert "late" in lost
+    assert "lost" in lost
