@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from typedcan.model.frozen import draft_of
 from typedcan.wire.fields import (
     CharacterField,
     ExactField,
@@ -13,7 +14,7 @@ from typedcan.wire.fields import (
     LabelledField,
     PhysicalField,
 )
-from typedcan.wire.message import Message, draft_of
+from typedcan.wire.message import Message
 
 Decoder = Callable[[Sequence[int]], Message]
 """Raw values, in the order of the class's ``FIELDS``, to a message."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from typedcan.model import protocol as model
+from typedcan.model.frozen import quicken
 from typedcan.model.transfers.parts import Part, Parts
 from typedcan.wire.errors import UnknownMessageError, UnknownNodeError
 from typedcan.wire.message import Message, StraightLine
@@ -182,6 +183,8 @@ def bind(
     codecs: Mapping[type[Message], StraightLine],
 ) -> Protocol:
     """A protocol of the model with its message classes; they are in the model's order."""
+    for kind in messages:
+        quicken(kind)
     classes = {kind.MODEL.name: kind for kind in messages}
     fields = {
         signal.name: FieldRef(kind, signal.python_name)
