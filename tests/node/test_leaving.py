@@ -249,3 +249,25 @@ def test_a_node_that_is_driven_by_hand_ends_what_acts_when_it_is_stopped(
     heard += rest(far)
     assert len(trailing_offs(heard)) == 1
     assert node.acting == ()
+
+
+def test_an_event_loop_goes_on_while_a_node_ends_what_acts(
+    near: can.BusABC, far: can.BusABC
+) -> None:
+    ticks = 0
+
+    async def tick() -> None:
+        nonlocal ticks
+        while True:
+            ticks += 1
+            await asyncio.sleep(0.005)
+
+    async def scenario() -> None:
+        async with Node(PROTOCOL, "VCU", near) as node:
+            node.set(ON)
+            await asyncio.to_thread(frames_until, far, is_on)
+            ticking = asyncio.create_task(tick())
+        ticking.cancel()
+
+    asyncio.run(scenario())
+    assert ticks >= 5  # in a quarter of a second

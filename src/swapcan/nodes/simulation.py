@@ -213,9 +213,12 @@ class Simulation:
             algorithms=self._algorithms,
         )
         # As in a controller, what is meant for others never gets to the software.
-        accepted = [kind.FRAME_ID for kind in PROTOCOL.received_by(node)] or [_NOBODYS]
+        accepted = [(kind.FRAME_ID, kind.EXTENDED) for kind in PROTOCOL.received_by(node)]
         bus.set_filters(
-            [{"can_id": number, "can_mask": _MASK, "extended": True} for number in accepted]
+            [
+                {"can_id": number, "can_mask": _MASK, "extended": extended}
+                for number, extended in accepted or [(_NOBODYS, True)]
+            ]
         )
         self.buses[node] = (*self.buses.get(node, ()), bus)
         return bus
