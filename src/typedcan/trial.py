@@ -97,7 +97,9 @@ class Oracle:
     def values(self, data: bytes, readable: Sequence[str]) -> Values:
         """The values of the readable signals that are there."""
         whole = self._whole(data)
-        return self._apart(data, readable) if whole is None else whole
+        if whole is None:
+            return self._apart(data, readable)
+        return {name: pair for name, pair in whole.items() if name in readable}
 
     def encoded(self, data: bytes) -> bytes | None:
         """What a payload is sent as again; None where cantools does not decode it whole."""
@@ -186,12 +188,15 @@ class _Trial:
 
         A value that was received may lie outside of what can be sent.
         """
+        there = [self._fields[name] for name in values]
         try:
             sent = self._codec.encode(message)
         except EncodeError as error:
             field = self._kind.FIELDS[error.field]
-            return "" if _cannot_be_sent(field, *values[field.dbc_name]) else str(error)
-        there = [self._fields[name] for name in values]
+            # What is rounded may need bits otherwise that another signal shares.
+            expected = any(map(_is_rounded, there))
+            expected |= _cannot_be_sent(field, *values[field.dbc_name])
+            return "" if expected else str(error)
         mask, rounded = (
             sum({1 << bit for field in fields for bit in layout.bits(field.signal)})
             for fields in (there, filter(_is_rounded, there))
@@ -200,7 +205,7 @@ class _Trial:
         if (mine ^ right & mask) & ~rounded:
             return f"sent as {sent.hex()}"
         theirs = self._oracle.encoded(data)
-        if theirs is not None and (mine ^ int.from_bytes(theirs, "little")) & ~rounded:
+        if theirs is not None and (mine ^ int.from_bytes(theirs, "little")) & mask & ~rounded:
             return f"sent as {sent.hex()}, cantools sends {theirs.hex()}"
         return ""
 

@@ -103,7 +103,10 @@ def test_a_factor_of_0_is_one_finding() -> None:
     table = ValueTable("OnOff", (Code(0, "Off", "Off"), Code(1, "On", "On")))
     flat = signal(length=2, factor=Decimal(0), value_table=table)
     assert findings(message(signals=(flat,)), value_tables=(table,)) == [
-        "signal-readable: SPEED of STATE cannot be read: its factor is 0, or no finite number"
+        (
+            "signal-readable: SPEED of STATE cannot be read: it has a factor that is 0, or no "
+            "finite number"
+        )
     ]
 
 

@@ -87,7 +87,9 @@ def test_a_file_that_is_no_dbc_says_so_in_one_line(
 def test_a_signal_without_a_scaling_takes_no_other_with_it(scale: str, tmp_path: Path) -> None:
     text = SMALL.replace('(1,0) [0|255] "V"', f'{scale} [0|1e999] "V"')
     protocol = read_dbc(file(tmp_path, text))
-    assert [*remarks(protocol)] == ["First.One is left out: its factor is 0, or no finite number"]
+    assert [*remarks(protocol)] == [
+        "First.One is left out: it has a factor that is 0, or no finite number"
+    ]
     assert "One" in [signal.name for signal in protocol.messages[0].signals]
 
 

@@ -65,14 +65,18 @@ def decoding(message: Message, fields: list[StubField], branches: Branches) -> I
     if unpacked:
         names = [f"b{byte}" if byte in read else "_" for byte in range(message.length)]
         yield f"    {', '.join(names)}{',' if len(names) == 1 else ''} = d"
-    selectors = {index for field in fields for index, _ in field.conditions}
+    selectors = sorted({index for field in fields for index, _ in field.conditions})
+    raws = [_raw(each, "b{}" if unpacked else "d[{}]") for each in parts]
+    for index in selectors:  # those of a branch may lie behind its other signals
+        yield from _assigning(f"v{index}", raws[index], fields[index].signal)
     for index, field in enumerate(fields):
-        bytes_ = [_read(part, "b{}" if unpacked else "d[{}]") for part in parts[index]]
-        raw = [" | ".join(bytes_[at : at + _IN_A_LINE]) for at in range(0, len(bytes_), _IN_A_LINE)]
+        raw = raws[index]
         placeholder = f"v[{index}]"
         twice = field.expression.count(placeholder) > 1
-        if index in selectors or len(raw) > 1 or field.signal.signed or twice:
-            value = f"v{index}" if index in selectors else "r"
+        if index in selectors:
+            value = f"v{index}"
+        elif len(raw) > 1 or field.signal.signed or twice:
+            value = "r"
             yield from _assigning(value, raw, field.signal)
         else:
             value = raw[0]
@@ -112,6 +116,12 @@ def _read(part: _Part, byte: str) -> str:
     if part.at:
         value = f"({value}) << {part.at}" if " " in value else f"{value} << {part.at}"
     return value
+
+
+def _raw(parts: list[_Part], byte: str) -> list[str]:
+    """The raw value, in parts that have room in a line each."""
+    found = [_read(part, byte) for part in parts]
+    return [" | ".join(found[at : at + _IN_A_LINE]) for at in range(0, len(found), _IN_A_LINE)]
 
 
 def _assigning(name: str, raw: list[str], signal: Signal) -> Iterator[str]:

@@ -30,9 +30,14 @@ def kind_of(message: Message, signal: Signal) -> Kind:
     if signal.is_float:
         return Kind.FLOAT
     meanings = value_codes(signal)
-    if meanings and all([*map(ord, code.english)] == [code.value] for code in meanings):
+    scaled = signal.factor != 1 or signal.offset != 0
+    if (
+        not scaled
+        and meanings
+        and all([*map(ord, code.english)] == [code.value] for code in meanings)
+    ):
         return Kind.CHARACTER
-    if signal.factor != 1 or signal.offset or signal.unit:
+    if scaled or signal.unit:
         return Kind.PHYSICAL
     return Kind.LABELLED if meanings and not is_numbering(meanings) else Kind.NUMBER
 

@@ -48,12 +48,9 @@ def unreadable(message: Message) -> list[tuple[Signal, str]]:
 
 def _unreadable(signal: Signal, message: Message, by_name: Mapping[str, Signal]) -> str:
     above: list[str] = []
-    if not signal.factor:
-        return "its factor is 0, or no finite number"
     while signal.name not in above:
-        if first_bit(signal) + signal.length > 8 * message.length:
-            which = f"{signal.name}, which selects it," if above else "it"
-            return f"{which} lies outside of the {message.length} bytes of {message.name}"
+        if fault := _fault(signal, message):
+            return f"{signal.name}, which selects it, {fault}" if above else f"it {fault}"
         if not signal.multiplexer:
             return ""
         above.append(signal.name)
@@ -61,6 +58,16 @@ def _unreadable(signal: Signal, message: Message, by_name: Mapping[str, Signal])
             return f"it is selected by {signal.multiplexer}, which {message.name} has not"
         signal = by_name[signal.multiplexer]
     return "it selects itself"
+
+
+def _fault(signal: Signal, message: Message) -> str:
+    if first_bit(signal) + signal.length > 8 * message.length:
+        return f"lies outside of the {message.length} bytes of {message.name}"
+    if not signal.factor:
+        return "has a factor that is 0, or no finite number"
+    if signal.is_float and signal.length not in FLOATS:
+        return f"is a float of {signal.length} bits, and there is none"
+    return ""
 
 
 def first_bit(signal: Signal) -> int:
@@ -103,9 +110,13 @@ def whole_byte(signal: Signal) -> int | None:
     return None
 
 
+FLOATS = {16: (10, 15), 32: (23, 127), 64: (52, 1023)}
+"""Bits of the types of IEEE 754: those of the fraction, and the largest exponent."""
+
+
 def largest_float(length: int) -> Decimal:
     """The largest finite number of the IEEE 754 type with so many bits, of 64 for odd ones."""
-    fraction, exponent = {16: (10, 15), 32: (23, 127)}.get(length, (52, 1023))
+    fraction, exponent = FLOATS.get(length, FLOATS[64])
     return Decimal((2 << exponent) - (1 << (exponent - fraction)))
 
 
