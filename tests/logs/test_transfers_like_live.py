@@ -88,7 +88,7 @@ def rough(name: str, source: random.Random) -> list[Sent]:
         frames = [(type(each), CODEC.encode(each)) for each in split(transfer, value)]
         if source.random() < 0.1:
             source.shuffle(frames)
-        step = period / (len(frames) + 1) * source.choice([0.2, 1, 1, 1.1])
+        step = period / (len(frames) + 1) * source.choice([0, 0.2, 1, 1, 1.1])
         for kind, data in frames:
             sound = source.random() >= noise
             frame = Sent(round(time, 3), kind, data if sound else source.randbytes(len(data)))
