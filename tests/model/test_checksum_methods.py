@@ -86,6 +86,10 @@ def test_a_crc_of_any_parameters_is_the_remainder_of_a_division() -> None:
                 assert ours(data) == crc(given, data), given
 
 
+def test_what_is_not_said_of_a_crc_is_nothing() -> None:
+    assert Crc(width=8, poly=0x07).function(8)(CHECK) == CHECKS["CRC-8/SMBUS"]
+
+
 def test_sums_are_taken_modulo_what_the_signal_holds() -> None:
     data = bytes([0xFF, 0x02, 0x10])  # 255 + 2 + 16 = 273 = 0x111
     assert Sum().function(8)(data) == 0x11

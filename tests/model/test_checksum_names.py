@@ -50,6 +50,13 @@ def test_what_has_no_name_stands_as_it_is_written(text: str) -> None:
     assert canonical_name(text) == text
 
 
+def test_parameters_reach_from_the_narrowest_crc_to_the_widest() -> None:
+    assert method_of("width=1 poly=1 init=1 xorout=1") == Crc(width=1, poly=1, init=1, xorout=1)
+    assert method_of("width=8 poly=0xff") == Crc(width=8, poly=255)
+    assert method_of("width=64 poly=0") == Crc(width=64, poly=0)
+    assert method_of("sum modulus=0x100000000") == Sum(modulus=1 << 32)
+
+
 def test_every_name_stands_for_itself() -> None:
     assert len(names()) > 100
     for name in names():

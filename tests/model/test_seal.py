@@ -206,6 +206,7 @@ def test_what_can_be_made_has_no_fault() -> None:
     assert faults(checked(algorithm="of_nobody")) == []
     assert faults(checked(covered=(7, 0))) == []
     assert faults(counter=counting(modulus=15, first=1)) == []
+    assert faults(counter=counting(modulus=1, first=15)) == []
     assert faults(counter=counting(modulus=16, first=15, step=-1)) == []
     wide = (signal("Crc", 0, 64), signal("Count", 64, 64))
     assert faults(checked(covered=(20,)), counting(modulus=1 << 62), signals=wide, length=64) == []
