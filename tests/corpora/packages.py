@@ -52,13 +52,12 @@ def databases_in(folder: Path) -> list[Path]:
 
 def tried(paths: Iterable[Path], *, jobs: int = 2, seconds: float = 600) -> Iterator[Result]:
     """What becomes of each file, in their order."""
-    with ProcessPoolExecutor(jobs) as pool:
+    with ProcessPoolExecutor(jobs, initializer=logging.disable) as pool:
         yield from pool.map(partial(try_one, seconds=seconds), paths)
 
 
 def try_one(path: Path, *, seconds: float = 600) -> Result:
     """Make a package of a file, try it in another process, and its columns here."""
-    logging.disable()
     name = package_name(path.stem)
     try:
         protocol = open_side(str(path)).protocol

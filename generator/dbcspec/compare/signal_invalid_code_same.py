@@ -12,10 +12,11 @@ from dbcspec.compare.spec_only import SPEC_ONLY
 def _check(pairing: Pairing) -> Iterator[Change]:
     for signal in pairing.signals:
         old, new = signal.old, signal.new
-        for word, before, after in (
-            ("invalid code", old.invalid_code, new.invalid_code),
-            ("abnormal code", old.abnormal_code, new.abnormal_code),
-        ):
+        changes = {  # the same change of both is said once
+            (old.abnormal_code, new.abnormal_code): "abnormal code",
+            (old.invalid_code, new.invalid_code): "invalid code",
+        }
+        for (before, after), word in reversed(changes.items()):
             if before != after and not _is_relabelled(pairing, signal, (before, after)):
                 yield signal_change(signal, word, _text(before), _text(after))
 
