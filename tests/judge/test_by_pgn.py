@@ -60,7 +60,7 @@ def together(*several: list[can.Message]) -> list[can.Message]:
 
 
 def test_others_that_send_the_same_pgn_are_neither_judged_nor_foreign() -> None:
-    others = frames(0x21, 0.3), frames(0x22, 0.31, 7)
+    others = frames(0x21, -0.3), frames(0x22, 0.31, 7)  # one before the sender
     judgement = judged(together(frames(0x0B), *others))
     assert found(judgement) == {}
     assert judgement.frames["Fault"] == 20

@@ -68,6 +68,25 @@ def test_faults_are_reported_in_the_event_loop(near: can.BusABC, far: can.BusABC
     assert link.counts.foreign == 1
 
 
+class SlowBus(VirtualBus):
+    """A bus on which nothing comes for some calls."""
+
+    silent = 3
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        self.silent -= 1
+        return (None, True) if self.silent >= 0 else super()._recv_internal(timeout)
+
+    def recv(self, timeout: float | None = None) -> can.Message | None:
+        return self._recv_internal(timeout)[0]
+
+
+def test_a_bus_that_is_silent_for_a_while_is_listened_to_on(channel: str, far: can.BusABC) -> None:
+    with SlowBus(channel) as bus:
+        far.send(live(7))
+        assert asyncio.run(first(Link(bus), 1)) == [7]
+
+
 class WatchedBus(VirtualBus):
     """A bus that tells when somebody waits for a frame."""
 

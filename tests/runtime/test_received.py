@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import ANY
+
 import can
 import cantools
 import pytest
@@ -54,6 +56,7 @@ def test_it_is_equal_to_one_with_the_same_message_frame_and_faults() -> None:
     assert hash(received) == hash(same)
     assert received != Received(B2V_ST2(soc=20.4), frame)
     assert received != received.message
+    assert received == ANY  # which says so itself, where it is asked
     assert repr(received) == repr(same)
 
 
