@@ -19,12 +19,13 @@ class Point:
 
     kind: str
     x: float = 1.5
-    self_: object = None
+    self: object = None
 
 
 def test_what_is_given_is_kept_and_what_is_not_has_its_default() -> None:
     slow = Point(kind="a", x=2.0)
     quicken(Point)
+    made = Point.__init__
     for _ in range(2):  # the first one is made otherwise than the second
         assert Point(kind="a", x=2.0) == slow
         assert Point(kind="b") == dataclasses.replace(slow, kind="b", x=1.5)
@@ -35,6 +36,8 @@ def test_what_is_given_is_kept_and_what_is_not_has_its_default() -> None:
             Point(kind="a", y=1)  # type: ignore[call-arg]
         with pytest.raises(TypeError, match="positional"):
             Point("a")  # type: ignore[call-arg]
+    assert Point.__init__ is not made
+    assert Point.__init__.__code__.co_filename == "<string>"
 
 
 def test_messages_are_frozen_compared_copied_and_pickled() -> None:

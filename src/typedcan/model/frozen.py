@@ -27,7 +27,7 @@ def quicken(kind: type[Any]) -> None:
     slow: Any = kind.__init__
 
     @wraps(slow)
-    def first(self: Any, *positional: object, **values: object) -> None:
+    def first(self: Any, /, *positional: object, **values: object) -> None:
         type.__setattr__(kind, "__init__", _constructor(kind, slow))
         kind.__init__(self, *positional, **values)
 
@@ -44,18 +44,17 @@ def _constructor(kind: type[Any], slow: Callable[..., None]) -> Callable[..., No
     }
     parameters = inspect.signature(slow).parameters
     names = [*parameters][1:]
-    known |= {f"__{name}": parameters[name].default for name in names}
-    given = [
-        name if parameters[name].default is Parameter.empty else f"{name}=__{name}"
-        for name in names
-    ]
+    given = []
+    for number, name in enumerate(names):
+        known[f"__default_{number}"] = default = parameters[name].default
+        given.append(name if default is Parameter.empty else f"{name}=__default_{number}")
     lines = [
-        f"def __init__(self, {', '.join(['*', *given] if given else [])}):",
-        "    if self.__class__ is not __kind:",  # a class of the user's that stands on it
-        f"        return __slow(self, {', '.join(f'{name}={name}' for name in names)})",
-        '    __set(self, "__class__", __draft)',
-        *(f"    self.{name} = {name}" for name in names),
-        "    self.__class__ = __kind",
+        f"def __init__(__self, {', '.join(['*', *given] if given else [])}):",
+        "    if __self.__class__ is not __kind:",  # a class of the user's that stands on it
+        f"        return __slow(__self, {', '.join(f'{name}={name}' for name in names)})",
+        '    __set(__self, "__class__", __draft)',
+        *(f"    __self.{name} = {name}" for name in names),
+        "    __self.__class__ = __kind",
     ]
     exec("\n".join(lines), known)
     made: Callable[..., None] = wraps(slow)(known["__init__"])
