@@ -14,7 +14,6 @@ from __future__ import annotations
 import copy
 import importlib
 import math
-import random
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from enum import IntEnum
@@ -30,6 +29,7 @@ from typedcan.model.errors import one_line
 from typedcan.model.protocol import Signal
 from typedcan.model.signal_state import SignalState
 from typedcan.model.soundness import hidden
+from typedcan.payloads import payloads
 from typedcan.shell.printing import print_line
 from typedcan.wire.codec import Codec
 from typedcan.wire.database import Entry, database
@@ -37,11 +37,6 @@ from typedcan.wire.errors import EncodeError
 from typedcan.wire.fields import ExactField, Field, FloatField, PhysicalField
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
-
-_PAYLOADS = 6
-"""Random payloads that each message is tried with, beside those of all 0 and all 1."""
-_BRANCHES = 100
-"""Signals of branches that are tried, of a message."""
 
 Values = Mapping[str, tuple[Any, Any]]
 """Raw and physical values of the signals that are there, by their names."""
@@ -222,45 +217,11 @@ class _Trial:
         )
 
 
-def payloads(kind: type[Message]) -> Iterator[bytes]:
-    """Payloads of all 0, of all 1, random ones, and some for each branch."""
-    length = kind.LENGTH
-    yield bytes(length)
-    yield b"\xff" * length
-    source = random.Random(kind.NAME)
-    for _ in range(_PAYLOADS if length else 0):
-        yield source.randbytes(length)
-    for selected in _branches(kind):
-        yield _with_codes(source.randbytes(length), selected)
-
-
-def _branches(kind: type[Message]) -> Iterator[dict[Signal, int]]:
-    """Values of the selectors with which each branch is there, others at one that they know."""
-    by_name = {field.dbc_name: field.signal for field in kind.FIELDS.values()}
-    within = [each for each in by_name.values() if each.multiplexer]
-    usual = {by_name[each.multiplexer]: each.selectors[0] for each in reversed(within)}
-    for signal in within[:_BRANCHES]:
-        selected, inner = dict(usual), signal
-        while inner.multiplexer:
-            selected[by_name[inner.multiplexer]] = inner.selectors[0]
-            inner = by_name[inner.multiplexer]
-        yield selected
-
-
 def _sent(codec: Codec, message: Message) -> str:
     try:
         return codec.encode(message, counter=0).hex()
     except EncodeError as error:
         return str(error)
-
-
-def _with_codes(data: bytes, codes: Mapping[Signal, int]) -> bytes:
-    """A payload with other raw values of some signals."""
-    number = int.from_bytes(data, "little")
-    for signal, code in codes.items():
-        for place, bit in enumerate(layout.bits(signal)):
-            number = number & ~(1 << bit) | (code >> place & 1) << bit
-    return number.to_bytes(len(data), "little")
 
 
 def _needed(kind: type[Message]) -> list[Field]:

@@ -18,7 +18,8 @@ from typedcan.logs.protocol import Protocol as Messages
 from typedcan.logs.protocol import read
 from typedcan.model import protocol as model
 from typedcan.model.protocol import FD_LENGTHS
-from typedcan.trial import Oracle, Values, payloads
+from typedcan.payloads import payloads
+from typedcan.trial import Oracle, Values
 
 ByIdentifier = Mapping[tuple[bool, int], CantoolsMessage]
 
