@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from typedcan.logs.columns import Column, MessageColumns, SignalInfo
 from typedcan.logs.labels import LABEL_TYPE, label_array
-from typedcan.logs.plan import Mode, plan_of
+from typedcan.logs.plan import Mode, columns_of
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.scaling import raw_dtype, scaling_of
 from typedcan.logs.selection import Selection
@@ -61,8 +61,7 @@ class MessageTable:
         signals: tuple[str, ...] | None = None,
     ) -> None:
         self.name = message.name
-        plan = plan_of(message, mode, protocol.reserved, signals)
-        self.signals: tuple[SignalInfo, ...] = plan.columns
+        self.signals = columns_of(message, mode, protocol.reserved, signals)
         """The signals, in the order of the columns."""
         self._types = {
             info.name: _arrow_type(message, info) for info in self.signals if not info.encoded
@@ -72,8 +71,8 @@ class MessageTable:
             for info in self.signals
             if info.scaled and protocol.reserved.get((message.name, info.name))
         }
-        self._by_pgn = plan.by_pgn
-        fields = [TIMESTAMP, CHANNEL, *(ADDRESSES if plan.by_pgn else ())]
+        self._by_pgn = message.by_pgn
+        fields = [TIMESTAMP, CHANNEL, *(ADDRESSES if message.by_pgn else ())]
         self.metadata = {info.name: _metadata(protocol, message, info) for info in self.signals}
         """By name of the signal, what is said of its column."""
         # A signal that is called like a column that is there anyway gets another column.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -108,7 +108,13 @@ def shapes_of(protocol: Protocol, options: Options) -> list[Shape]:
     SelectionError
         There is no message or signal of a name that was asked for.
     """
-    tables = _tables(protocol, options)
+    wanted = select(protocol, options.messages, options.signals)
+    return _shapes(protocol, options, message_tables(protocol, wanted, options.mode))
+
+
+def _shapes(
+    protocol: Protocol, options: Options, tables: Mapping[str, MessageTable]
+) -> list[Shape]:
     shape: Shape
     if options.layout is Layout.LONG:
         shape = LongTable(protocol, tables)
@@ -142,10 +148,11 @@ def read_rows(
         protocol.messages, mode=options.mode, reserved=protocol.reserved, wanted=wanted
     )
     checks = Checks(protocol, keep_faulty=options.keep_faulty, algorithms=options.algorithms)
-    shapes = shapes_of(protocol, options)
+    tables = message_tables(protocol, wanted, options.mode)
+    shapes = _shapes(protocol, options, tables)
     summary = Summary(logs=1, hidden=protocol.hidden, in_several_frames=protocol.in_several_frames)
     if options.layout is Layout.MESSAGES:
-        for table in message_tables(protocol, wanted, options.mode).values():
+        for table in tables.values():
             summary.renamed.update(table.renamed)
     span = _Span()
     with open_log(path, _BLOCK) as log:
@@ -165,11 +172,6 @@ def read_rows(
     summary.faults = checks.finish()
     summary.seconds = span.seconds
     return summary
-
-
-def _tables(protocol: Protocol, options: Options) -> dict[str, MessageTable]:
-    wanted = select(protocol, options.messages, options.signals)
-    return message_tables(protocol, wanted, options.mode)
 
 
 def _watched(log: LogSource, watch: Watch) -> Iterator[FrameBlock]:

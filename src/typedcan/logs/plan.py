@@ -101,31 +101,20 @@ def plan_of(
     ReservedCodeError
         A reserved code is none that the signal can have.
     """
+    columns = columns_of(message, mode, reserved, wanted)
     signals = readable(message)
-    names = {signal.name for signal in signals}
-    for name in wanted or ():
-        if name not in names:
-            known = [signal.name for signal in message.signals if signal.name in names]
-            raise SelectionError(f"{message.name} has no signal {name!r}; it has {known}")
-    codes = {signal.name: _codes(message, signal, reserved or {}) for signal in signals}
-    infos = {signal.name: _info(signal, mode, codes[signal.name]) for signal in signals}
-    asked = [
-        signal
-        for signal in message.signals
-        if signal.name in names and (wanted is None or signal.name in wanted)
-    ]
     above = {signal.multiplexer for signal in signals}
     selecting = {each.name: f"{each.name} (raw)" for each in signals if each.name in above}
     parts: list[Part | Wide] = []
     if message.length <= LONG:  # else no frame has all its bytes
-        parts = _parts(message, [infos[each.name] for each in asked], codes, selecting)
+        parts = _parts(message, columns, reserved or {}, selecting)
     loads, stacks = stacks_of(part for part in parts if isinstance(part, Part))
     return MessagePlan(
         message.name,
         message.frame_id,
         message.extended,
         message.length,
-        tuple(infos[signal.name] for signal in asked),
+        columns,
         loads,
         stacks,
         tuple(part for part in parts if isinstance(part, Wide)),
@@ -135,10 +124,31 @@ def plan_of(
     )
 
 
+def columns_of(
+    message: Message,
+    mode: Mode = Mode.PHYSICAL,
+    reserved: Reserved | None = None,
+    wanted: Collection[str] | None = None,
+) -> tuple[SignalInfo, ...]:
+    """The signals asked for that can occur, in the order of the database; raises as `plan_of`."""
+    names = {signal.name for signal in readable(message)}
+    for name in wanted or ():
+        if name not in names:
+            known = [signal.name for signal in message.signals if signal.name in names]
+            raise SelectionError(f"{message.name} has no signal {name!r}; it has {known}")
+    there = [signal for signal in message.signals if signal.name in names]
+    codes = {signal.name: _codes(message, signal, reserved or {}) for signal in there}
+    return tuple(
+        _info(signal, mode, codes[signal.name])
+        for signal in there
+        if wanted is None or signal.name in wanted
+    )
+
+
 def _parts(
     message: Message,
     infos: Iterable[SignalInfo],
-    codes: Mapping[str, Mapping[int, State]],
+    reserved: Reserved,
     selecting: Mapping[str, str],
 ) -> list[Part | Wide]:
     """What decodes the columns, and the raw values of the multiplexers."""
@@ -146,7 +156,8 @@ def _parts(
     parts: list[Part | Wide] = []
     for info in infos:
         signal = by_name[info.name]
-        parts.append(_part(message, signal, info, codes[info.name] if info.scaled else {}))
+        codes = _codes(message, signal, reserved) if info.scaled else {}
+        parts.append(_part(message, signal, info, codes))
     for name, raw in selecting.items():
         signal = by_name[name]
         info = replace(_info(signal, Mode.RAW, {}), name=raw)
@@ -187,9 +198,10 @@ def _part(
     message: Message, signal: Signal, info: SignalInfo, reserved: Mapping[int, State]
 ) -> Part | Wide:
     scaling = scaling_of(signal) if info.scaled else Scaling(raw_dtype(signal))
+    raw = raw_dtype(signal)
     lane = lane_of(signal, SHORT if message.length <= SHORT else LONG)
-    if lane is None or not scaling.vector or raw_dtype(signal).kind == "O":
+    if lane is None or not scaling.vector or raw.kind == "O":
         factor_and_offset = to_physical(signal) if info.scaled else None
         return Wide(info.name, signal, message.length, scaling.dtype, factor_and_offset, reserved)
     signed = signal.signed and not signal.is_float
-    return Part(info.name, lane, signed, raw_dtype(signal), scaling, reserved)
+    return Part(info.name, lane, signed, raw, scaling, reserved)
