@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 
 from typedcan.shell import command_line
-from typedcan.shell.command_line import Parser, Program, Subcommands
+from typedcan.shell.command_line import Parser, Program, Subcommands, completing_files
 from typedcan.shell.printing import print_warnings
 
 _HELP = {
@@ -73,10 +73,11 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         metavar="PACKAGE",
         help="a package that `dbcspec generate` wrote: its name, or its folder",
     )
-    file = parser.add_argument(
-        "--dbc", type=Path, metavar="FILE", help="a database: .dbc, .kcd, .sym or .arxml"
+    completing_files(
+        parser.add_argument(
+            "--dbc", type=Path, metavar="FILE", help="a database: .dbc, .kcd, .sym or .arxml"
+        )
     )
-    vars(file)["complete"] = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
 
 
 def _add(commands: Subcommands[Parser], name: str) -> None:

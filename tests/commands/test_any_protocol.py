@@ -11,12 +11,13 @@ from pathlib import Path
 import can
 import pyarrow.parquet as pq
 import pytest
+from commands.running import as_arguments, bus_options, environment, started
 
 import typedcan
 
+GENERATOR = Path(typedcan.__file__).parents[2] / "generator"
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 WIDTHS = FIXTURES / "databases" / "both.dbc"
-GROUP = "239.74.163.77"
 PACK = FIXTURES / "logs" / "pack.log"
 TYPEDCAN = (
     "import sys; sys.modules['swapcan'] = None; sys.modules['dbcspec'] = None\n"
@@ -28,19 +29,15 @@ DBCSPEC = (
 )
 
 
-def environment() -> dict[str, str]:
-    source = Path(typedcan.__file__).parents[1]
-    paths = [str(source), str(source.parent / "generator")]
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONUTF8": "1"}
-
-
 def run(
     *arguments: object, program: str = TYPEDCAN, folder: Path | None = None, status: int = 0
 ) -> subprocess.CompletedProcess[str]:
+    env = environment() | {"PYTHONUTF8": "1"}
+    env["PYTHONPATH"] += f"{os.pathsep}{GENERATOR}"
     done = subprocess.run(
         [sys.executable, "-c", program, *map(str, arguments)],
         cwd=folder,
-        env=environment(),
+        env=env,
         capture_output=True,
         text=True,
         timeout=60,
@@ -192,13 +189,14 @@ def test_send_sends_messages_of_both_widths(words: tuple[str, ...], line: str) -
 
 
 def test_a_database_does_not_say_what_acts_so_that_sending_needs_consent() -> None:
-    send = ("--dbc", WIDTHS, "send", "SHORTID", "left=7", "-i", "udp_multicast", "-c", GROUP)
+    shared = bus_options("udp_multicast")
+    send = ("--dbc", WIDTHS, "send", "SHORTID", "left=7", *as_arguments(shared))
     done = run(*send, status=2)
     assert done.stderr == (
         "typedcan: SHORTID may make its receiver act: nothing is known of codes that do:"
         " not sent without --yes-drive-the-bus\n"
     )
-    with can.Bus(GROUP, "udp_multicast") as bus:
+    with can.Bus(ignore_config=True, **shared) as bus:
         done = run(*send, "--yes-drive-the-bus")
         assert done.stdout == "0x100  [07]  SHORTID  left=7\n"
         assert done.stderr == "typedcan: looking for another AA for 2 s\n"
@@ -208,16 +206,11 @@ def test_a_database_does_not_say_what_acts_so_that_sending_needs_consent() -> No
 
 
 def test_listen_prints_messages_of_both_widths_as_they_arrive() -> None:
-    arguments = ("--dbc", WIDTHS, "listen", "-i", "udp_multicast", "-c", GROUP, "--count", "2")
+    shared = bus_options("udp_multicast")
+    arguments = ("--dbc", str(WIDTHS), "listen", *as_arguments(shared), "--count", "2")
     with (
-        can.Bus(GROUP, "udp_multicast") as bus,
-        subprocess.Popen(
-            [sys.executable, "-c", TYPEDCAN, *map(str, arguments)],
-            env=environment(),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        ) as listening,
+        can.Bus(ignore_config=True, **shared) as bus,
+        started("-c", TYPEDCAN, *arguments) as listening,
     ):
         assert listening.stderr is not None
         assert "listening on" in listening.stderr.readline()

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from typedcan.commands.bus_options import add_bus_options
 from typedcan.commands.log_options import add_window_options, need
-from typedcan.commands.tool import Tool, add_protocol_options, completing_files
-from typedcan.shell.command_line import Command
+from typedcan.commands.tool import Tool, add_protocol_options
+from typedcan.shell.command_line import Command, completing_files
 from typedcan.simulate.times import PlanError, seconds_of
 
 

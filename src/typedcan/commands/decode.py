@@ -7,9 +7,9 @@ from functools import partial
 from pathlib import Path
 
 from typedcan.commands.log_file import LogFileError, read_log
-from typedcan.commands.tool import Tool, add_protocol_options, completing_files
+from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.commands.transcript import JSON_HELP, Transcript
-from typedcan.shell.command_line import Command
+from typedcan.shell.command_line import Command, completing_files
 from typedcan.shell.console import CommandError, note
 
 

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 
 from typedcan.commands.log_options import add_window_options, need
-from typedcan.commands.tool import Tool, add_protocol_options, completing_files
-from typedcan.shell.command_line import Command
+from typedcan.commands.tool import Tool, add_protocol_options
+from typedcan.shell.command_line import Command, completing_files
 
 
 def command(tool: Tool) -> Command:

@@ -12,13 +12,10 @@ from typedcan.dynamic import typed_protocol
 from typedcan.model import protocol as model
 from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.monitor.glance import Glance
-from typedcan.shell.command_line import Command
+from typedcan.shell.command_line import Command, completing_files
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
 from typedcan.wire.protocol import Protocol
-
-# What shtab calls a file, for the completion of shells.
-_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,12 +91,6 @@ def dbc_of(options: argparse.Namespace) -> Path | None:
     """The database that the options name."""
     path: Path | None = getattr(options, "dbc", None)
     return path
-
-
-def completing_files(*arguments: argparse.Action) -> None:
-    """Let the shell complete these by the names of files."""
-    for each in arguments:
-        vars(each)["complete"] = _FILE
 
 
 def add_protocol_options(parser: argparse._ActionsContainer) -> None:

@@ -114,8 +114,7 @@ def _reserved(protocol: model.Protocol) -> Reserved:
     """By names of message and signal, the raw codes that are no value."""
     found: dict[tuple[str, str], dict[int, State]] = {}
     for message, signal in protocol.signals():
-        pairs = ((signal.invalid_code, State.INVALID), (signal.abnormal_code, State.ABNORMAL))
-        codes = {code: state for code, state in pairs if code is not None}
+        codes = {code: State[state.name] for code, state in signal.states.items()}
         if codes and not signal.is_float:
             found[message.name, signal.name] = codes
     return found

@@ -23,6 +23,9 @@ from typedcan.shell.console import (
 
 _LOG = logging.getLogger("typedcan")
 
+# What shtab calls a file, for the completion of shells.
+_FILE = {"bash": "_shtab_compgen_files", "zsh": "_files", "tcsh": "f"}
+
 _SIGNALS = 128
 """What the exit status of a command that a signal has ended is above of."""
 
@@ -126,6 +129,12 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Raise the message as `CommandError`."""
         raise CommandError(f"{message}; see {self.prog} --help")
+
+
+def completing_files(*arguments: argparse.Action) -> None:
+    """Let the shell complete these by the names of files."""
+    for each in arguments:
+        vars(each)["complete"] = _FILE
 
 
 class _Version(argparse.Action):
