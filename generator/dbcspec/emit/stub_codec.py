@@ -83,9 +83,6 @@ def decoding(message: Message, fields: list[StubField], branches: Branches) -> I
         if " " in value and not _stands_alone(field.expression, placeholder):
             value = f"({value})"
         expression = field.expression.replace(placeholder, value)
-        factor, offset = scaling_of(field.signal)
-        if field.kind is Kind.PHYSICAL and isinstance(factor, float) and factor < 0 and not offset:
-            expression = f"{expression} + 0.0"  # nothing is not minus nothing
         yield branches.decoded(f"m.{field.signal.python_name}", expression, field.conditions)
 
 
@@ -157,13 +154,14 @@ def _tested(field: StubField, slow: str, names: StubNames) -> Iterator[str]:
     if kind is Kind.FILLED:
         yield f"    r = 0 if x is None else {slow}(x)"
         return
-    test = f"    if {_test(field, names)}:"
-    if not _test(field, names) or len(test) > _LONGEST_LINE:
+    test = _test(field, names)
+    line = f"    if {test}:"
+    if not test or len(line) > _LONGEST_LINE:
         yield f"    r = {slow}(x)"
         return
     if kind is Kind.LABELLED:
         yield "    k = type(x)"
-    yield test
+    yield line
     yield f"        r = {_scaled(signal) if kind is Kind.PHYSICAL else 'x'}"
     if kind is Kind.PHYSICAL and signal.states:
         yield f"        if {' or '.join(f'r == {code}' for code in signal.states)}:"

@@ -141,7 +141,7 @@ def _expression(signal: Signal, kind: Kind, raw: str, table: str) -> str:
         value = f"{raw} * {literal(factor)}"
     elif isinstance(factor, float):
         value = f"float({raw})"
-    if offset:
+    if offset or (isinstance(factor, float) and factor < 0):  # 0 x -2.0 is -0.0, 0.0 with an offset
         start = raw if factor == 1 else value
         value = f"{start} {'-' if offset < 0 else '+'} {literal(abs(offset))}"
     for code, state in reversed([*signal.states.items()]) if kind is not Kind.FLOAT else ():
