@@ -15,6 +15,7 @@ from monitor.test_overview import SECOND, serial
 from dbcspec.config import find_config
 from dbcspec.project import load
 from typedcan.commands.monitor_lines import MonitorLines, _rounded
+from typedcan.databases.dbc import read_database
 from typedcan.dynamic import typed_protocol
 from typedcan.monitor.session import Session
 from typedcan.monitor.watch import Watch
@@ -190,6 +191,20 @@ def test_json_has_objects_alone_and_times_since_the_start(capsys: Capture, tmp_p
     first, second = told["messages"]
     assert first["last"]["signals"]["Heat"] == {"value": 1, "label": "Warm"}
     assert (first["age"], second["last"]) == (0.2, None)
+
+
+def test_what_a_message_said_last_keeps_its_digits(capsys: Capture, tmp_path: Path) -> None:
+    path = tmp_path / "dose.dbc"
+    path.write_text(
+        'VERSION ""\n\nBS_:\n\nBU_: Gate\n\nBO_ 258 Dose: 4 Gate\n'
+        ' SG_ Small : 0|32@1+ (1E-10,0) [0|0] "g" Gate\n'
+    )
+    codec = Codec(typed_protocol(read_database(path)))
+    printed = Printed(capsys, as_json=True, codec=codec)
+    printed.hear(0.3, can.Message(arbitration_id=258, is_extended_id=False, data=b"\xd0\0\0\0"))
+    printed.lines.summary()
+    (line,) = printed.out()
+    assert json.loads(line)["messages"][0]["last"]["signals"] == {"Small": 2.08e-8}
 
 
 def test_numbers_have_microseconds_and_what_json_has_not_is_null() -> None:

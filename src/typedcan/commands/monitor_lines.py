@@ -83,8 +83,8 @@ class MonitorLines:
         self._last_frames = status.frames
         time = picture.time - self._session.began
         if self._as_json:
-            told = _as_json(picture, status, rows)
-            say(json.dumps(_rounded({"time": time, **told}), allow_nan=False), flush=True)
+            told = {"time": _rounded(time), **_as_json(picture, status, rows)}
+            say(json.dumps(told, allow_nan=False), flush=True)
         else:
             say(f"{time:10.3f}  {_summary(picture, status, rows)}", flush=True)
 
@@ -134,7 +134,8 @@ def _summary(picture: Picture, status: Status, rows: list[MessageRow]) -> str:
 def _as_json(picture: Picture, status: Status, rows: list[MessageRow]) -> dict[str, Any]:
     names = {row.name for row in rows}
     last = {kind.NAME: seen for kind, seen in picture.last.items()}
-    told = picture.as_dict()
+    told = _rounded(picture.as_dict())
+    # What a message said last is no measurement of ours: it keeps its digits.
     told["messages"] = [
         {**message, "last": _frame(last.get(message["name"]))}
         for message in told["messages"]

@@ -31,10 +31,11 @@ from typing import Any
 import can
 
 from typedcan.model.j1939 import GLOBAL_ADDRESS
+from typedcan.model.numbers import without_noise
 from typedcan.model.signal_state import SignalState
 from typedcan.shell.console import say
 from typedcan.wire.codec import Codec
-from typedcan.wire.fields import Field, LabelledField
+from typedcan.wire.fields import Field, FloatField, LabelledField
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 from typedcan.wire.receiver import Counts, Receiver
@@ -179,11 +180,16 @@ def _signals(message: Message) -> dict[str, Any]:
         elif isinstance(field, LabelledField):
             signals[field.dbc_name] = {"value": int(value), "label": field.labels.get(value)}
         elif isinstance(value, float):
-            # 0.1 x 3 is not 0.3, and JSON has neither infinity nor what is no number.
-            signals[field.dbc_name] = round(value, 9) if math.isfinite(value) else None
+            signals[field.dbc_name] = _number(field, value)
         else:
             signals[field.dbc_name] = value
     return signals
+
+
+def _number(field: Field, value: float) -> float | None:
+    if not math.isfinite(value):  # no number of JSON
+        return None
+    return value if isinstance(field, FloatField) else without_noise(value)
 
 
 def _states(message: Message) -> dict[str, str]:
