@@ -7,7 +7,7 @@ import json
 import pickle
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import can
 import pyarrow as pa
@@ -24,7 +24,9 @@ from typedcan.__main__ import main as typedcan
 from typedcan.logs.convert import convert_logs, tables
 from typedcan.logs.pipeline import Options
 from typedcan.logs.protocol import known
+from typedcan.logs.summary import _TRANSFERS
 from typedcan.logs.transfers.tables import TransferTables
+from typedcan.model.transfers.kind import ProblemKind
 from typedcan.transfer import Blocks, Text, split
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message
@@ -82,6 +84,34 @@ def test_values_are_rows_with_the_time_at_which_they_were_complete(
     )
     assert summary.rows["serial"] == 2
     assert found["heats_1x4_1x3_1x2"].num_rows == 2
+
+
+def test_what_is_wrong_with_them_is_counted_and_said(tmp_path: Path) -> None:
+    messages = {
+        name: [*split(rack().transfer(name), VALUES[name])] for name in ("serial", "key", "heats")
+    }
+    first: Any = messages["key"][0]
+    odd = replace(first, block=3)  # it has two
+    sent = frames(CODEC, messages["serial"][:1])  # its second message never comes
+    sent += frames(CODEC, [odd, odd], 0.1)
+    sent += frames(CODEC, messages["heats"][:-1], 0.2)
+    sent += frames(CODEC, messages["key"], 60.0)
+    logs = [tmp_path / "first.blf", tmp_path / "second.blf"]
+    for path in logs:
+        with can.Logger(path) as logger:
+            for frame in sent:
+                logger.on_message_received(frame)
+    _, summary = convert_logs(logs, tmp_path / "out", ALL, own=known(rack().model), jobs=1)
+    assert summary.as_json()["transfers"] == {
+        "serial": {"timeout": 2},
+        "key": {"number": 4},
+        "heats": {"timeout": 2},
+    }
+    assert [line for line in summary.lines() if "transfers" in line] == [
+        "transfers not complete in time: serial 2, heats 2",
+        "transfers with a wrong number: key 4",
+    ]
+    assert len({*_TRANSFERS}) == len(get_args(ProblemKind))
 
 
 def test_columns_say_what_they_are(log: Path) -> None:

@@ -169,6 +169,7 @@ def read_rows(
             summary.damage.append(log.damage)
     for shape in shapes:
         _hand_on(shape.finish(), rows, summary)
+        summary.add_problems(shape.problems)
     summary.faults = checks.finish()
     summary.seconds = span.seconds
     return summary

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Protocol as Interface
 
@@ -9,6 +10,7 @@ import pyarrow as pa
 
 from typedcan.logs.arrow import MessageTable
 from typedcan.logs.columns import DecodedBlock
+from typedcan.model.transfers.kind import ProblemKind
 
 Batch = tuple[str, pa.RecordBatch]
 """Some rows of the table of that name."""
@@ -32,6 +34,11 @@ class Shape(Interface):
     def finish(self) -> Iterator[Batch]:
         """The rows that are left at the end of the log."""
         ...
+
+    @property
+    def problems(self) -> Mapping[str, Counter[ProblemKind]]:
+        """What was wrong with transfers, by their names, and how often; after the end."""
+        return {}
 
 
 class PerMessage(Shape):

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from typedcan.logs.checks import Faults
 from typedcan.logs.columns import Counts
 from typedcan.logs.read import Damage
+from typedcan.model.transfers.kind import ProblemKind
 
+_TRANSFERS: Mapping[ProblemKind, str] = {
+    "conflict": "transfers with two contents",
+    "timeout": "transfers not complete in time",
+    "number": "transfers with a wrong number",
+    "length": "transfers with a wrong length",
+    "character": "transfers with a code that is no character",
+    "check": "transfers with a wrong check digit",
+    "totals": "transfers with other totals than readings",
+}
 _MOST = 10
 """Unknown identifiers that are listed for people."""
 
@@ -42,6 +52,8 @@ class Summary:
         Messages that no single frame carries.
     renamed
         Signals whose column has another name, ``message.signal``, and that name.
+    problems
+        What was wrong with transfers, by their names, and how often.
     """
 
     logs: int = 0
@@ -54,6 +66,9 @@ class Summary:
     hidden: dict[str, str] = field(default_factory=dict[str, str])
     in_several_frames: tuple[str, ...] = ()
     renamed: dict[str, str] = field(default_factory=dict[str, str])
+    problems: dict[str, Counter[ProblemKind]] = field(
+        default_factory=dict[str, Counter[ProblemKind]]
+    )
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -67,6 +82,12 @@ class Summary:
         self.hidden |= other.hidden
         self.in_several_frames = other.in_several_frames
         self.renamed |= other.renamed
+        self.add_problems(other.problems)
+
+    def add_problems(self, found: Mapping[str, Counter[ProblemKind]]) -> None:
+        """Add what was wrong with transfers."""
+        for name, kinds in found.items():
+            self.problems.setdefault(name, Counter()).update(kinds)
 
     def lines(self) -> Iterator[str]:
         """For people."""
@@ -78,12 +99,7 @@ class Summary:
             yield ", ".join(f"{many:,} {what}" for what, many in others.items() if many)
         if counts.unknown:
             yield f"unknown identifiers: {_listed(_identifiers(counts))}"
-        for title, found in (
-            ("wrong length", faults.length),
-            ("wrong checksum", faults.checksum),
-            ("wrong counter", faults.counter),
-            ("selector without a branch", counts.without_branch),
-        ):
+        for title, found in self._troubles():
             if found:
                 yield f"{title}: {_listed(found)}"
         for name, other in self.hidden.items():
@@ -96,6 +112,15 @@ class Summary:
             yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
         for damage in self.damage:
             yield str(damage)
+
+    def _troubles(self) -> Iterator[tuple[str, Counter[str]]]:
+        """What was wrong, and how often with each message or transfer."""
+        yield "wrong length", self.faults.length
+        yield "wrong checksum", self.faults.checksum
+        yield "wrong counter", self.faults.counter
+        yield "selector without a branch", self.counts.without_branch
+        for kind, title in _TRANSFERS.items():
+            yield title, +Counter({name: each[kind] for name, each in self.problems.items()})
 
     def as_json(self) -> dict[str, Any]:
         """For programs."""
@@ -131,6 +156,7 @@ class Summary:
             "hidden": self.hidden,
             "in_several_frames": list(self.in_several_frames),
             "renamed": self.renamed,
+            "transfers": {name: dict(kinds) for name, kinds in self.problems.items()},
         }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from typedcan.logs.transfers.readings import ReadingFrames
 from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, Cycle, Outcome
+from typedcan.model.transfers.kind import ProblemKind
 from typedcan.model.transfers.shape import Shape
 
 _CHUNK = 256
@@ -47,6 +49,12 @@ class CycleCounts:
         self.foreign += other.foreign
         self.contradictions += other.contradictions
         self.unassigned += other.unassigned
+
+    def problems(self) -> Counter[ProblemKind]:
+        """The same as live nodes tell of it."""
+        return +Counter[ProblemKind](
+            {"timeout": self.incomplete, "number": self.foreign, "totals": self.contradictions}
+        )
 
 
 @dataclass(frozen=True, slots=True)

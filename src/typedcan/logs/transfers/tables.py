@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
@@ -25,7 +26,7 @@ from typedcan.logs.shapes import Batch, Shape
 from typedcan.logs.transfers.assembly import CycleCounts
 from typedcan.logs.transfers.cycles import CycleTable, ReadingColumns
 from typedcan.logs.transfers.values import Complete, ValueColumns
-from typedcan.model.transfers.kind import MOST_ITEMS, Problem
+from typedcan.model.transfers.kind import MOST_ITEMS, ProblemKind
 from typedcan.model.transfers.parts import Parts, field_of
 from typedcan.model.transfers.registry import KINDS
 
@@ -61,6 +62,8 @@ class TransferTables(Shape):
         self._values = ValueColumns(protocol.values)
         self._tables = {each.transfer.name: ValueTable(protocol, each) for each in protocol.values}
         self._schemas: dict[str, pa.Schema] = {}
+        self._readings = {each.name: each.parts.transfer.name for each in protocol.readings}
+        self._problems: dict[str, Counter[ProblemKind]] = {}
 
     @property
     def schemas(self) -> Mapping[str, pa.Schema]:
@@ -75,9 +78,12 @@ class TransferTables(Shape):
         return self._columns.counts
 
     @property
-    def problems(self) -> list[Problem]:
-        """What was wrong with texts and blocks."""
-        return self._values.problems
+    def problems(self) -> Mapping[str, Counter[ProblemKind]]:
+        """What was wrong with transfers, by their names, and how often."""
+        found = dict(self._problems)
+        for name, counts in self.counts.items():
+            found[self._readings[name]] = counts.problems()
+        return {name: kinds for name, kinds in found.items() if kinds.total()}
 
     def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
         """What is complete with the block; raises `ColumnsError`."""
@@ -88,11 +94,19 @@ class TransferTables(Shape):
         for name, complete in found.items():
             table = self._tables[name]
             yield table.name, table.batch(complete)
+        self._count()
 
     def finish(self) -> Iterator[Batch]:
         """The cycles that waited until the end."""
         yield from self._batches(self._columns.finish())
         self._values.finish()
+        self._count()
+
+    def _count(self) -> None:
+        """Count problems and forget them: a long log may have many."""
+        for problem in self._values.problems:
+            self._problems.setdefault(problem.transfer, Counter())[problem.kind] += 1
+        self._values.problems.clear()
 
     def _batches(self, tables: Iterable[CycleTable]) -> Iterator[Batch]:
         for table in tables:
