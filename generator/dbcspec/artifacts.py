@@ -9,12 +9,14 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from dbcspec.config import Config
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
 from dbcspec.emit.json_schema import emit_json_schemas
 from dbcspec.emit.long_names import with_dbc_names
+from dbcspec.emit.stub_names import package_name
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.matrix.write import emit_matrix
 from dbcspec.spec.rows import DOCUMENTS
@@ -34,25 +36,47 @@ class Stale:
     diff: tuple[str, ...] = ()
 
 
-def artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
-    """Every generated file: path below the project's root, with forward slashes, to bytes."""
-    main = emit_dbc(protocol).encode("ascii")
-    chinese = emit_dbc(protocol, english=False)
-    made = {
-        f"{config.dbc}/{config.name}.dbc": main,
-        f"{config.dbc}/{config.name}.zh.dbc": chinese.encode("gb2312"),
-        f"{config.dbc}/{config.name}.zh-utf8.dbc": chinese.encode("utf-8"),
-    }
-    for bus in protocol.buses:
-        made[f"{config.dbc}/{config.name}-{bus.name}.dbc"] = emit_dbc(protocol, bus=bus).encode(
-            "ascii"
-        )
+def artifacts(
+    protocol: Protocol, config: Config, editions: Mapping[str, Protocol] = MappingProxyType({})
+) -> dict[str, bytes]:
+    """Every generated file: path below the project's root, with forward slashes, to bytes.
+
+    Each of the ``editions`` has its DBC files in a folder of its name.
+    """
+    made = dbc_files(protocol, config.name, f"{config.dbc}/")
+    for name, edition in editions.items():
+        made |= dbc_files(edition, config.name, f"{config.dbc}/{name}/")
     if config.stubs:
         for name, text in emit_stubs(protocol).items():
             made[f"{config.stubs}/{name}"] = text.encode("utf-8")
-        made[f"{config.stubs}/{config.name}.dbc"] = main
+        made[f"{config.stubs}/{config.name}.dbc"] = made[f"{config.dbc}/{config.name}.dbc"]
     for name, text in emit_json_schemas(DOCUMENTS).items():
         made[f"{config.spec}/schema/{name}"] = text.encode("utf-8")
+    return made
+
+
+def dbc_files(protocol: Protocol, name: str, folder: str) -> dict[str, bytes]:
+    """The DBC files of a spec: one for everything, two with Chinese texts, one for each bus."""
+    chinese = emit_dbc(protocol, english=False)
+    return {
+        f"{folder}{name}.dbc": emit_dbc(protocol).encode("ascii"),
+        f"{folder}{name}.zh.dbc": chinese.encode("gb2312"),
+        f"{folder}{name}.zh-utf8.dbc": chinese.encode("utf-8"),
+        **{
+            f"{folder}{name}-{bus.name}.dbc": emit_dbc(protocol, bus=bus).encode("ascii")
+            for bus in protocol.buses
+        },
+    }
+
+
+def chosen_artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
+    """What is generated of another edition or reading: DBC files, and stubs where there are any."""
+    made = dbc_files(protocol, config.name, "")
+    if config.stubs:
+        package = package_name(config.name)
+        for name, text in emit_stubs(protocol).items():
+            made[f"{package}/{name}"] = text.encode("utf-8")
+        made[f"{package}/{config.name}.dbc"] = made[f"{config.name}.dbc"]
     return made
 
 
@@ -115,8 +139,9 @@ def verify(
             same_spec = protocol.digest.encode() in digests
             why = "edited by hand" if same_spec else "stale"
             found.append(Stale(name, why, _short_diff(present, data)))
-    present_dbcs = (root / config.dbc).glob(f"{config.name}*.dbc")
-    surplus = {f"{config.dbc}/{path.name}" for path in present_dbcs} - set(files)
+    folder = root / config.dbc
+    present_dbcs = [*folder.glob(f"{config.name}*.dbc"), *folder.glob(f"*/{config.name}*.dbc")]
+    surplus = {path.relative_to(root).as_posix() for path in present_dbcs} - set(files)
     return found + [Stale(name, "no longer generated: delete it") for name in sorted(surplus)]
 
 

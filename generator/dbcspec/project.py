@@ -21,6 +21,7 @@ class Project:
     spec: Spec
     protocol: Protocol
     errata_faults: tuple[Fault, ...]
+    printed: Spec
 
     def findings(self) -> list[Finding]:
         """What the linter finds and no waiver accepts."""
@@ -36,7 +37,13 @@ class Project:
         )
 
 
-def load(config: Config) -> Project:
-    """Read, correct and resolve; raises `SpecError` with every fault that prevents it."""
-    compiled = compile_spec(config.root / config.spec, config.spec, config.name)
-    return Project(config, compiled.spec, compiled.protocol, compiled.errata_faults)
+def load(config: Config, choice: str = "") -> Project:
+    """Read, correct and resolve; raises `SpecError` with every fault that prevents it.
+
+    ``choice`` is an edition and readings, as ``v4.6+E50b``; raises `ReadError` where there is none
+    such.
+    """
+    compiled = compile_spec(config.root / config.spec, config.spec, config.name, choice)
+    return Project(
+        config, compiled.spec, compiled.protocol, compiled.errata_faults, compiled.printed
+    )

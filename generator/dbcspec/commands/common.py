@@ -43,14 +43,31 @@ def report_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", type=Path, help="write the report here, not to stdout")
 
 
-def load_project(options: argparse.Namespace) -> Project:
-    """The project that -C names."""
-    return load(find_config(options.project.resolve()))
+def choice_options(parser: argparse.ArgumentParser) -> None:
+    """Declare --edition and --reading."""
+    parser.add_argument("--edition", metavar="NAME", help="an edition that the spec has")
+    parser.add_argument(
+        "--reading",
+        metavar="ID",
+        action="append",
+        default=[],
+        help="a reading that the spec lists beside its usual one; may be repeated",
+    )
 
 
-def load_sound_project(options: argparse.Namespace) -> Project:
+def choice_text(options: argparse.Namespace) -> str:
+    """What --edition and --reading choose, as ``v4.6+E50b``; "" for the usual readings."""
+    return "+".join(filter(None, (options.edition, *options.reading)))
+
+
+def load_project(options: argparse.Namespace, choice: str = "") -> Project:
+    """The project that -C names, in an edition and readings."""
+    return load(find_config(options.project.resolve()), choice)
+
+
+def load_sound_project(options: argparse.Namespace, choice: str = "") -> Project:
     """The project, if the linter has nothing against it; raises `FindingsError`."""
-    project = load_project(options)
+    project = load_project(options, choice)
     if findings := project.findings():
         raise FindingsError(findings)
     return project

@@ -6,12 +6,27 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
-from dbcspec.artifacts import Stale, artifacts, foreign_artifacts, verify, write
+from dbcspec.artifacts import (
+    Stale,
+    artifacts,
+    chosen_artifacts,
+    foreign_artifacts,
+    verify,
+    write,
+)
 from dbcspec.commands import HELP
-from dbcspec.commands.common import Commands, load_sound_project, project_option
+from dbcspec.commands.common import (
+    Commands,
+    choice_options,
+    choice_text,
+    load_sound_project,
+    project_option,
+)
 from dbcspec.emit.stub_names import package_name
 from dbcspec.errors import StaleArtifactError
+from dbcspec.project import Project
 from dbcspec.read.doors import open_side
+from dbcspec.spec.variants import with_variants
 from dbcspec.trial import try_package
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
@@ -29,7 +44,10 @@ def add(commands: Commands) -> None:
     generate.add_argument(
         "--from", dest="source", metavar="FILE", help="read this DBC or matrix, not the project"
     )
-    generate.add_argument("--out", type=Path, help="with --from: the folder to write into")
+    generate.add_argument(
+        "--out", type=Path, help="with --from, --edition or --reading: the folder to write into"
+    )
+    choice_options(generate)
     generate.add_argument("--encoding", help="of FILE, where it is not to be found out")
 
     text = HELP["check"]
@@ -40,18 +58,28 @@ def add(commands: Commands) -> None:
 
 
 def _generate(options: argparse.Namespace) -> int:
-    if bool(options.source) != bool(options.out):
-        raise ReadError("--from and --out go together")
+    choice = choice_text(options)
+    if options.source and choice:
+        raise ReadError("--edition and --reading are of the project's spec: not with --from")
+    if bool(options.source or choice) != bool(options.out):
+        raise ReadError("--out goes together with --from, --edition or --reading")
     if options.source:
         protocol = open_side(options.source, encoding=options.encoding).protocol
         name = package_name(Path(options.source.rsplit(":", 1)[-1]).stem)
         root, files = options.out, foreign_artifacts(protocol, name)
         try_package(files, name, f"{name}.dbc")
+    elif choice:
+        project = load_sound_project(options, choice)
+        protocol, root = project.protocol, options.out
+        files = chosen_artifacts(protocol, project.config)
+        if project.config.stubs:
+            name = project.config.name
+            try_package(files, package_name(name), f"{name}.dbc")
     else:
         project = load_sound_project(options)
-        protocol, root = project.protocol, project.config.root
-        config = project.config
-        files = artifacts(protocol, config)
+        root, config = project.config.root, project.config
+        protocol = with_variants(project.protocol, project.printed)
+        files = artifacts(protocol, config, _editions(options, project))
         if config.stubs:
             try_package(files, config.stubs, f"{config.dbc}/{config.name}.dbc")
     changed = write(root, files)
@@ -70,6 +98,12 @@ def _generate(options: argparse.Namespace) -> int:
     return 0
 
 
+def _editions(options: argparse.Namespace, project: Project) -> dict[str, Protocol]:
+    """Each edition of the project's spec; raises `FindingsError` for what is wrong in one."""
+    names = [edition.name for edition in project.printed.editions]
+    return {name: load_sound_project(options, name).protocol for name in names}
+
+
 def _stale_lines(stale: Stale) -> Iterator[str]:
     yield f"{stale.path}: {stale.why}"
     yield from (f"    {line}" for line in stale.diff)
@@ -86,7 +120,8 @@ def _counts(protocol: Protocol) -> dict[str, int]:
 
 def _check(options: argparse.Namespace) -> int:
     project = load_sound_project(options)
-    files = artifacts(project.protocol, project.config)
+    protocol = with_variants(project.protocol, project.printed)
+    files = artifacts(protocol, project.config, _editions(options, project))
     stale = verify(project.config.root, files, project.protocol, project.config)
     if options.json:
         found = [{"path": each.path, "why": each.why, "diff": list(each.diff)} for each in stale]

@@ -9,6 +9,8 @@ from dbcspec.artifacts import put_in_place
 from dbcspec.commands import HELP
 from dbcspec.commands.common import (
     Commands,
+    choice_options,
+    choice_text,
     load_project,
     print_report,
     project_option,
@@ -43,6 +45,7 @@ def add(commands: Commands) -> None:
     )
     lint.add_argument("--encoding", help="of TARGET, where it is not to be found out")
     lint.add_argument("--fix", action="store_true", help="mend a DBC file where that is certain")
+    choice_options(lint)
     report_options(lint)
 
     text = HELP["rules"]
@@ -67,7 +70,7 @@ def _lint(options: argparse.Namespace) -> int:
         )
         title = options.target
     else:
-        project = load_project(options)
+        project = load_project(options, choice_text(options))
         found = project.config.lint
         subject = project.subject()
         title = project.config.spec

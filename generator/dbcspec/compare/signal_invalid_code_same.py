@@ -16,6 +16,9 @@ def _check(pairing: Pairing) -> Iterator[Change]:
             (old.abnormal_code, new.abnormal_code): "abnormal code",
             (old.invalid_code, new.invalid_code): "invalid code",
         }
+        if old.other_invalid_codes != new.other_invalid_codes:
+            was, now = (", ".join(map(str, each.other_invalid_codes)) for each in (old, new))
+            yield signal_change(signal, "other invalid codes", was, now)
         for (before, after), word in reversed(changes.items()):
             if before != after and not _is_relabelled(pairing, signal, (before, after)):
                 yield signal_change(signal, word, _text(before), _text(after))

@@ -22,7 +22,7 @@ def both_say_what_acts(pairing: Pairing) -> bool:
 
 def states(signal: Signal) -> set[int]:
     """The codes of a signal that mean invalid or abnormal."""
-    return {code for code in (signal.invalid_code, signal.abnormal_code) if code is not None}
+    return set(signal.states)
 
 
 def start_follows(pairing: Pairing, signal: SignalPair) -> bool:

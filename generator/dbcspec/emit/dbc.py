@@ -115,8 +115,8 @@ def _comments(*, english: bool) -> Callable[[Protocol | Node | Message | Signal]
         if isinstance(item, Message):
             return item.comment(english=english) or item.comment(english=not english)
         text = (item.english or item.title) if english else (item.title or item.english)
-        number = item.number if isinstance(item, Protocol) else ""
-        return ", ".join(part for part in (text, number) if part)
+        known = (item.number, item.chosen) if isinstance(item, Protocol) else ()
+        return ", ".join(part for part in (text, *known) if part)
 
     return comment
 

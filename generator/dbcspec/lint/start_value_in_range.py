@@ -27,7 +27,7 @@ def _fault(signal: Signal) -> str | None:
     if not least <= start <= most:
         return f"its {signal.length} bits hold {least}~{most}"
     coded = {code.value for code in signal.value_table.codes} if signal.value_table else set[int]()
-    if not start or start in coded | {signal.invalid_code, signal.abnormal_code}:
+    if not start or start in coded | set(signal.states):
         return None
     if signal.minimum >= signal.maximum or not signal.factor:
         return None  # range-fits-bits says so

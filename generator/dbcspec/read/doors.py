@@ -1,4 +1,7 @@
-"""One argument of the command line to a protocol: spec folder, DBC, matrix, at any revision."""
+"""One argument of the command line to a protocol: spec folder, DBC, matrix, at any revision.
+
+A spec folder is read in any edition and reading that it has.
+"""
 
 from __future__ import annotations
 
@@ -36,6 +39,7 @@ def open_side(argument: str, *, encoding: str | None = None, cwd: Path | None = 
     """Read a spec folder, a DBC, an .xlsx matrix or what else cantools reads.
 
     With ``revision:`` before it, the path is read as git has it; a path that exists goes first.
+    After a spec folder ``@`` and an edition or readings choose those: ``spec@v4.6+E50b``.
     ``encoding`` is that of a text file, where it is not to be found out; relative paths start at
     ``cwd``. Raises `ReadError`, and `SpecError` for a spec folder with faults.
     """
@@ -45,11 +49,20 @@ def open_side(argument: str, *, encoding: str | None = None, cwd: Path | None = 
         raise ReadError("neither a file nor a spec folder is named")
     if _exists(path):
         return _open(path, argument, encoding)
-    split = split_revision(argument)
+    argument, choice = _split_choice(argument, here)
+    path = here / argument
+    split = split_revision(argument) if not _exists(path) else None
     if split is None:
-        return _open(path, argument, encoding)
+        return _open(path, argument, encoding, choice)
     with checked_out(*split, here) as found:
-        return _open(found, argument, encoding)
+        return _open(found, argument, encoding, choice)
+
+
+def _split_choice(argument: str, here: Path) -> tuple[str, str]:
+    """A spec folder and the edition and readings after ``@``, where the argument has such."""
+    before, _, choice = argument.rpartition("@")
+    is_choice = before and choice and not set(choice) & set("/\\:{}")
+    return (before, choice) if is_choice and not _exists(here / argument) else (argument, "")
 
 
 def _exists(path: Path) -> bool:
@@ -59,9 +72,11 @@ def _exists(path: Path) -> bool:
         return False
 
 
-def _open(path: Path, title: str, encoding: str | None) -> Side:
+def _open(path: Path, title: str, encoding: str | None, choice: str = "") -> Side:
     if _exists(path / "standard.yaml"):
-        return _open_spec(path, title)
+        return _open_spec(path, title, choice)
+    if choice and _exists(path):
+        raise ReadError(f"{title}: only a spec folder has editions and readings, so no @{choice}")
     if _is_folder(path):
         raise ReadError(f"{title}: is a folder without a standard.yaml, so no spec")
     if path.suffix.lower() == MATRIX:
@@ -89,10 +104,12 @@ def _read_matrix(path: Path, title: str) -> Protocol:
     return read_matrix(path, shown_as=title)
 
 
-def _open_spec(folder: Path, title: str) -> Side:
-    made = compile_spec(folder, title.rstrip("/\\") or title, _project_name(folder))
+def _open_spec(folder: Path, title: str, choice: str) -> Side:
+    name = title.rstrip("/\\") or title
+    made = compile_spec(folder, name, _project_name(folder), choice)
+    shown = f"{title}@{choice}" if choice else title
     return Side(
-        protocol=made.protocol, title=title, spec=made.spec, errata_faults=made.errata_faults
+        protocol=made.protocol, title=shown, spec=made.spec, errata_faults=made.errata_faults
     )
 
 

@@ -101,6 +101,7 @@ def _signal(signals: SignalPair, both: frozenset[Aspect]) -> Iterator[Difference
         facts.append(("English title", old.english, new.english))
     if Aspect.PROTECTION in both:
         facts.append(("invalid code", old.invalid_code, new.invalid_code))
+        facts.append(("other invalid codes", old.other_invalid_codes, new.other_invalid_codes))
         facts.append(("abnormal code", old.abnormal_code, new.abnormal_code))
     if Aspect.ACTS in both:
         facts.append((ACTS, _acts(old), _acts(new)))

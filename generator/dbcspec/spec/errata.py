@@ -1,18 +1,21 @@
 """Rows as printed to rows as read: applies each erratum, and refuses one that does nothing.
 
 Paths: ``tables/07-status/4`` (a row by its number), ``messages/ECU1_Status/Speed``
-(a field of the annex), ``standard/nodes/ECU1``, ``behaviour/checksums/CRC8``, ``tables``.
+(a field of the annex), ``messages/ECU1_Status/Reserved@12`` (the one of several that starts there),
+``standard/nodes/ECU1``, ``behaviour/checksums/CRC8``, ``tables``.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from dbcspec.errors import Fault, SpecError
-from dbcspec.spec.rows import ChangeRow, ErratumRow, SameCodes, SignalRow, Spec
-from dbcspec.spec.schema import Record, expect_table, keys_of
+from dbcspec.spec.errata_rows import ChangeRow
+from dbcspec.spec.readings import ReadErratum, usual_readings
+from dbcspec.spec.rows import SameCodes, SignalRow, Spec
+from dbcspec.spec.schema import Record, expect_table, expect_text, keys_of
 from dbcspec.spec.source import Items
 
 Edit = Callable[[Any], Any]
@@ -22,25 +25,27 @@ class _RefusedError(Exception):
     """The change cannot be made; the text says why."""
 
 
-def apply_errata(spec: Spec) -> tuple[Spec, tuple[Fault, ...]]:
-    """Apply all errata in order.
+def apply_errata(
+    spec: Spec, errata: Iterable[ReadErratum] | None = None
+) -> tuple[Spec, tuple[Fault, ...]]:
+    """Apply errata in order: those of the spec as it reads them, or others.
 
     Returns the corrected rows and a fault for each change that names nothing that exists or
     changes nothing; such a change is left out.
     """
     faults: list[Fault] = []
     seen: set[str] = set()
-    for erratum in spec.errata:
+    for erratum in usual_readings(spec) if errata is None else errata:
         if erratum.id in seen:
-            faults.append(Fault(erratum.where_is("id"), f"erratum {erratum.id} stands here twice"))
+            faults.append(Fault(erratum.where, f"erratum {erratum.id} stands here twice"))
         seen.add(erratum.id)
         if not all(change.at for change in erratum.change) or not erratum.change:
             text = f"erratum {erratum.id}: names nothing to change"
-            faults.append(Fault(erratum.where_is("change"), text))
+            faults.append(Fault(erratum.change_where, text))
         for change in erratum.change:
             for path in change.at:
                 try:
-                    spec = _edit_at(spec, path.split("/"), _edit_for(erratum, change))
+                    spec = _edit_at(spec, path.split("/"), _edit_for(erratum.id, change))
                 except _RefusedError as refused:
                     text = f"erratum {erratum.id}, {path}: {refused}"
                     faults.append(Fault(change.where_is("at"), text))
@@ -65,34 +70,43 @@ def _edit_at(value: Any, path: list[str], edit: Edit) -> Any:
             raise _RefusedError(f"there is no {name!r} in {type(value).__name__}")
         return dataclasses.replace(value, **{name: _edit_at(getattr(value, name), rest, edit)})
     if isinstance(value, tuple):
-        places = [
-            index
-            for index, item in enumerate(value)
-            if isinstance(item, Record) and item.identity == name
-        ]
-        if len(places) != 1:
-            count = "nothing" if not places else f"{len(places)} entries"
-            raise _RefusedError(f"{count} named {name!r}")
-        index = places[0]
+        index = _place(value, name)
         return (*value[:index], _edit_at(value[index], rest, edit), *value[index + 1 :])
     raise _RefusedError(f"nothing below it is named {name!r}")
 
 
-def _edit_for(erratum: ErratumRow, change: ChangeRow) -> Edit:
-    given = [
-        name
-        for name in ("set", "add", "relabel", "keep")
-        if getattr(change, name) not in (None, {}, ())
+def _place(items: tuple[Any, ...], name: str) -> int:
+    """The index of the one entry of that name, or of that name and start bit: ``Reserved@12``."""
+    name, _, start = name.partition("@")
+    places = [
+        index
+        for index, item in enumerate(items)
+        if isinstance(item, Record)
+        and item.identity == name
+        and (not start or str(getattr(item, "start", "")) == start)
     ]
+    if len(places) != 1:
+        count = "nothing" if not places else f"{len(places)} entries"
+        raise _RefusedError(f"{count} named {name!r}{f' at bit {start}' if start else ''}")
+    return places[0]
+
+
+_STEPS = ("set", "add", "remove", "relabel", "keep")
+
+
+def _edit_for(erratum: str, change: ChangeRow) -> Edit:
+    given = [name for name in _STEPS if getattr(change, name) not in (None, {}, ())]
     if len(given) != 1:
-        raise _RefusedError("give exactly one of set, add, relabel, keep")
+        raise _RefusedError(f"give exactly one of {', '.join(_STEPS)}")
     if given == ["set"]:
-        return lambda value: _set(value, erratum.id, change)
+        return lambda value: _set(value, erratum, change)
     if given == ["add"]:
-        return lambda value: _add(value, erratum.id, change)
+        return lambda value: _add(value, erratum, change)
+    if given == ["remove"]:
+        return lambda value: _remove(value, erratum, change)
     if given == ["keep"]:
-        return lambda value: _keep(value, erratum.id, change)
-    return lambda value: _relabel(value, erratum.id, change.relabel)
+        return lambda value: _keep(value, erratum, change)
+    return lambda value: _relabel(value, erratum, change.relabel)
 
 
 def _marked(record: Record, erratum: str, **values: Any) -> Record:
@@ -149,6 +163,25 @@ def _add(value: Any, erratum: str, change: ChangeRow) -> Record:
             _marked(item, erratum) if isinstance(item, Record) else item for item in new
         )
     return _marked(record, erratum, **values) if marked else dataclasses.replace(record, **values)
+
+
+def _remove(value: Any, erratum: str, change: ChangeRow) -> Record:
+    """Take entries out of lists of the entry at the path: ``remove: {signals: [Speed]}``."""
+    record = _record(value)
+    values: dict[str, Any] = {}
+    entries = expect_table(change.remove).entries
+    if not entries:
+        raise _RefusedError("remove gives no list: nothing changes")
+    for key, node in entries:
+        left = getattr(record, key.text, None)
+        if key.text not in keys_of(type(record)) or not isinstance(left, tuple):
+            raise _RefusedError(f"{key.text!r} is not a list")
+        names = node.nodes if isinstance(node, Items) else (node,)
+        for name in map(expect_text, names):
+            index = _place(left, name)
+            left = (*left[:index], *left[index + 1 :])
+        values[key.text] = left
+    return _marked(record, erratum, **values)
 
 
 def _keep(value: Any, erratum: str, change: ChangeRow) -> Record:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from decimal import Decimal
@@ -9,6 +10,7 @@ from typing import TypeVar
 
 from dbcspec.errors import Fault, SpecError
 from dbcspec.spec.behaviour_names import unknown_names
+from dbcspec.spec.readings import ReadErratum, usual_readings
 from dbcspec.spec.resolve_acts import acting_codes
 from dbcspec.spec.resolve_protection import filled_in, protected
 from dbcspec.spec.resolve_standard import (
@@ -40,14 +42,19 @@ _SEND_TYPES = {
 }
 
 
-def resolve(spec: Spec, name: str) -> model.Protocol:
+def resolve(
+    spec: Spec, name: str, errata: Iterable[ReadErratum] | None = None, chosen: str = ""
+) -> model.Protocol:
     """Build the protocol called ``name``; raises `SpecError` with everything that is missing.
+
+    ``errata`` are those in force, where they are not the usual ones, and ``chosen`` names them.
 
     A signal that no table explains is left out, and names of nodes are taken as they stand: the
     linter reports both.
     """
     resolver = _Resolver(spec)
-    protocol = resolver.protocol(name)
+    read = usual_readings(spec) if errata is None else errata
+    protocol = dataclasses.replace(resolver.protocol(name), errata=errata_of(read), chosen=chosen)
     if resolver.faults:
         raise SpecError(resolver.faults)
     return protocol
@@ -102,7 +109,6 @@ class _Resolver:
                 )
                 for row in self._spec.behaviour.requests
             ),
-            errata=errata_of(self._spec.errata),
         )
 
     def _given(self, record: Record, key: str, value: T | None, instead: T) -> T:
@@ -147,7 +153,9 @@ class _Resolver:
             condition=self._conditions.get(row.name, ""),
             signals=signals,
             reserved=tuple(self._reserved(row)),
-            reference=", ".join((self._spec.messages.annex, *map(table_reference, tables))),
+            reference=", ".join(
+                (row.annex or self._spec.messages.annex, *map(table_reference, tables))
+            ),
             errata=row.marks,
             where=row.where,
         )
@@ -155,7 +163,7 @@ class _Resolver:
 
     def _reserved(self, message: MessageRow) -> Iterator[model.ReservedBits]:
         padding = self._spec.behaviour.padding
-        cited = (self._spec.messages.annex, padding.cite if padding else "")
+        cited = (message.annex or self._spec.messages.annex, padding.cite if padding else "")
         for field in message.signals:
             if field.name in self._spec.standard.reserved:
                 yield model.ReservedBits(
@@ -202,7 +210,8 @@ class _Resolver:
             factor = Decimal(1)
         value_table = self._value_tables.of(row)
         standard = self._spec.standard
-        invalid = _code_labelled(row.labels, standard.invalid_labels)
+        invalid_codes = _labelled(row.labels, standard.invalid_labels)
+        invalid = invalid_codes[0] if invalid_codes else None
         acting = self._acting.get(f"{message.name}.{field.name}") or self._acting.get(field.name)
         usual = usual_start(invalid, acting) if filled is None else filled
         unit = self._given(row, "unit", row.unit, "")
@@ -225,7 +234,8 @@ class _Resolver:
             unit=self._units.get(unit, unit),
             value_table=value_table,
             invalid_code=invalid,
-            abnormal_code=_code_labelled(row.labels, standard.abnormal_labels),
+            other_invalid_codes=tuple(invalid_codes[1:]),
+            abnormal_code=next(iter(_labelled(row.labels, standard.abnormal_labels)), None),
             start_value=usual if field.initial is None else field.initial,
             acting=acting,
             receivers=tuple(map(self._node, receivers)),
@@ -245,5 +255,5 @@ class _Resolver:
             yield Transfer(**facts)
 
 
-def _code_labelled(codes: Mapping[int, str], labels: tuple[str, ...]) -> int | None:
-    return next((code for code, label in codes.items() if label in labels), None)
+def _labelled(codes: Mapping[int, str], labels: tuple[str, ...]) -> list[int]:
+    return [code for code, label in codes.items() if label in labels]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
-from dbcspec.spec.rows import ErratumRow, SignalRow, SignalTable, Standard
+from dbcspec.spec.readings import ReadErratum
+from dbcspec.spec.rows import SignalRow, SignalTable, Standard
 from typedcan.model import protocol as model
 
 
@@ -23,19 +24,31 @@ def nodes_of(standard: Standard) -> tuple[model.Node, ...]:
     )
 
 
-def errata_of(rows: Iterable[ErratumRow]) -> tuple[model.Erratum, ...]:
+def errata_of(errata: Iterable[ReadErratum]) -> tuple[model.Erratum, ...]:
     """The errata, for people."""
     return tuple(
         model.Erratum(
-            id=row.id,
-            kind=row.kind,
-            place=row.place,
-            printed=row.printed,
-            reading=row.reading,
-            because=row.because,
+            id=each.id,
+            kind=each.row.kind,
+            place=each.row.place,
+            printed=each.row.printed,
+            reading=each.reading,
+            because=each.because,
+            source=each.source,
+            alternatives=tuple(_others(each)),
         )
-        for row in rows
+        for each in errata
     )
+
+
+def _others(erratum: ReadErratum) -> Iterator[model.Alternative]:
+    """The readings of its place that are not in force."""
+    row = erratum.row
+    readings = [(row.id, row.reading, row.because, row.source)]
+    readings += [(each.id, each.reading, each.because, each.source) for each in row.alternatives]
+    for number, reading, because, source in readings:
+        if number != erratum.id:
+            yield model.Alternative(id=number, reading=reading, because=because, source=source)
 
 
 def joined(title: str, part: str) -> str:

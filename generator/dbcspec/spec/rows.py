@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from dbcspec.spec.behaviour_rows import Behaviour
+from dbcspec.spec.errata_rows import Errata, ErratumRow
 from dbcspec.spec.schema import (
     DECIMAL,
     INTEGER,
@@ -28,7 +29,7 @@ from dbcspec.spec.schema import (
     map_of,
     nested,
     one_of,
-    raw,
+    pattern,
     whole_number,
 )
 from dbcspec.spec.source import Node
@@ -60,6 +61,7 @@ BITS = whole_number(1, 8 * _MOST)
 START = whole_number(0, 8 * _MOST - 1)
 CODES = Kind("codes and their labels", _read_codes, _CODES.schema)
 LIST_OF_TEXT = list_of(TEXT)
+EDITION = pattern("a name (letters, digits, dot, dash)", r"[A-Za-z0-9][A-Za-z0-9._-]{0,40}", str)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,6 +156,7 @@ class MessageRow(Record):
         LIST_OF_TEXT, "what field names in generated code leave off", default=()
     )
     signals: tuple[FieldRow, ...] = key(list_of(nested(FieldRow)), "its fields", required=True)
+    annex: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -216,40 +219,38 @@ class SignalTable(Record):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChangeRow(Record):
-    """One step of an erratum; exactly one of set, add, relabel, keep."""
+class EditionHead(Record):
+    """edition.yaml: what another edition is, and where it is known from."""
 
-    at: tuple[str, ...] = key(LIST_OF_TEXT, "paths of what it changes", required=True)
-    set: Any = key(raw(), "keys with their new values")
-    add: Any = key(raw(), "an entry to append to the list at the path")
-    relabel: Mapping[str, str] = key(map_of(TEXT, TEXT), "label as printed: as read", default={})
-    keep: tuple[str, ...] = key(list_of(NAME), "keys whose print stands", default=())
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ErratumRow(Record):
-    """A reading that differs from print, fills a gap, or settles a doubt."""
-
-    IDENTITY: ClassVar[str] = "id"
-
-    id: str = key(NAME, "its number, never reused", required=True)
-    kind: str = key(
-        one_of("scan", "typo", "conflict", "gap", "choice"), "what sort of fault", required=True
+    title: str = key(TEXT, "its title", required=True)
+    english: str = key(TEXT, "its title in English", required=True)
+    source: str = key(TEXT, "where its deviations are known from, in English", required=True)
+    date: str = key(TEXT, "its date or year, as far as known", required=True)
+    over: str = key(EDITION, "the edition that it changes (default: the standard)", default="")
+    readings: tuple[str, ...] = key(list_of(NAME), "the alternatives that it takes", default=())
+    warnings: tuple[str, ...] = key(
+        LIST_OF_TEXT, "what its users have to know, in English", default=()
     )
-    place: str = key(TEXT, "where in the document", required=True)
-    printed: str = key(TEXT, "what stands there", required=True)
-    reading: str = key(TEXT, "what is read instead", required=True)
-    because: str = key(TEXT, "why", required=True)
-    change: tuple[ChangeRow, ...] = key(list_of(nested(ChangeRow)), "the change", required=True)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Errata(Record):
-    """errata.yaml: the numbered corrections."""
+class EditionMessages(Record):
+    """messages.yaml of an edition: messages that the standard does not have."""
 
-    MAIN: ClassVar[str] = "errata"
+    MAIN: ClassVar[str] = "messages"
 
-    errata: tuple[ErratumRow, ...] = key(list_of(nested(ErratumRow)), "in order", required=True)
+    messages: tuple[MessageRow, ...] = key(list_of(nested(MessageRow)), "in order", required=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edition:
+    """editions/NAME/: a patch in the form of errata over the standard or another edition."""
+
+    name: str
+    head: EditionHead
+    errata: tuple[ErratumRow, ...] = ()
+    messages: tuple[MessageRow, ...] = ()
+    tables: tuple[SignalTable, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -261,6 +262,7 @@ class Spec:
     tables: tuple[SignalTable, ...]
     behaviour: Behaviour
     errata: tuple[ErratumRow, ...]
+    editions: tuple[Edition, ...] = ()
 
     def rows(self) -> Iterator[tuple[SignalTable, SignalRow]]:
         """Every signal row with its table, reserved fields left out, in printed order."""
@@ -297,4 +299,6 @@ DOCUMENTS: Mapping[str, type[Record]] = {
     "table": SignalTable,
     "behaviour": Behaviour,
     "errata": Errata,
+    "edition": EditionHead,
+    "edition-messages": EditionMessages,
 }

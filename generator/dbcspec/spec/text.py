@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
-from dbcspec.spec.rows import ErratumRow
+from dbcspec.spec.errata_rows import ErratumRow
 from dbcspec.spec.source import Table
 from dbcspec.spec.splice import flow, scalar
 from typedcan.model.acting import ActingCodes

@@ -13,7 +13,7 @@ from cantools.database.can import Signal as CantoolsSignal
 
 from typedcan.databases.protection import protected
 from typedcan.databases.scaling import limits, scaling, start_value
-from typedcan.databases.value_tables import ValueTables, code_labelled, codes_of
+from typedcan.databases.value_tables import ValueTables, codes_labelled, codes_of
 from typedcan.model import protocol as model
 from typedcan.model.errors import Location, ReadError
 from typedcan.model.naming import field_name, field_names, shared_prefix
@@ -212,6 +212,9 @@ class _Builder:
         factor, offset = scaling(signal)
         selector = signal.multiplexer_signal or ""
         low, high = limits(signal, factor, offset)
+        start = start_value(signal, self._defined)
+        invalid = codes_labelled(codes, self._labels.invalid, start)
+        abnormal = codes_labelled(codes, self._labels.abnormal, start)
         return model.Signal(
             name=signal.name,
             title=title,
@@ -232,9 +235,10 @@ class _Builder:
             maximum=high,
             unit=signal.unit or "",
             value_table=self._value_tables.of(signal.name, codes) if codes else None,
-            invalid_code=code_labelled(codes, self._labels.invalid),
-            abnormal_code=code_labelled(codes, self._labels.abnormal),
-            start_value=start_value(signal, self._defined),
+            invalid_code=invalid[0] if invalid else None,
+            other_invalid_codes=invalid[1:],
+            abnormal_code=abnormal[0] if abnormal else None,
+            start_value=start,
             receivers=tuple(name for name in signal.receivers if name != _NOBODY),
             is_selector=signal.is_multiplexer or signal.name in selecting,
             multiplexer=long.get(selector, selector) if signal.multiplexer_ids else "",

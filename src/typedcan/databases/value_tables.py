@@ -43,7 +43,13 @@ def codes_of(choices: Mapping[int, object]) -> Codes:
     return tuple(sorted((int(code), str(label)) for code, label in choices.items()))
 
 
-def code_labelled(codes: Codes, labels: frozenset[str]) -> int | None:
-    """The one code with such a label; of several none is surely the one."""
+def codes_labelled(codes: Codes, labels: frozenset[str], start: int) -> tuple[int, ...]:
+    """The codes with such a label, first the one that is sent.
+
+    Of several that is the one that the signal starts with, where it is one of them; else none is
+    surely it, and none is given.
+    """
     found = [code for code, label in codes if label.strip().lower() in labels]
-    return found[0] if len(found) == 1 else None
+    if len(found) > 1 and start not in found:
+        return ()
+    return tuple(sorted(found, key=lambda code: code != start))

@@ -7,9 +7,8 @@ from typedcan.model.protocol import Code, Signal
 
 def value_codes(signal: Signal) -> tuple[Code, ...]:
     """The codes that are values, without those for invalid and abnormal."""
-    states = (signal.invalid_code, signal.abnormal_code)
     codes = signal.value_table.codes if signal.value_table else ()
-    return tuple(code for code in codes if code.value not in states)
+    return tuple(code for code in codes if code.value not in signal.states)
 
 
 def is_numbering(codes: tuple[Code, ...]) -> bool:

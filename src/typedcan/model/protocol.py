@@ -157,8 +157,38 @@ class Bus:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Alternative:
+    """Another reading of the same place, which a run can choose by its id, and who reads it so."""
+
+    id: str
+    reading: str
+    because: str
+    source: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variant:
+    """The protocol in another reading or edition, as what it changes.
+
+    ``name`` chooses it: the id of an alternative or the name of an edition. ``english``, ``title``,
+    ``source``, ``date`` and ``warnings`` are for people; an edition takes the ``readings``.
+    ``changes`` is text that `typedcan.model.variants` makes and reads.
+    """
+
+    name: str
+    is_edition: bool = False
+    english: str
+    title: str = ""
+    source: str = ""
+    date: str = ""
+    warnings: tuple[str, ...] = ()
+    readings: tuple[str, ...] = ()
+    changes: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Erratum:
-    """A reading that differs from print, for people."""
+    """A reading that differs from print, for people, with the other readings of its place."""
 
     id: str
     kind: str
@@ -166,6 +196,8 @@ class Erratum:
     printed: str
     reading: str
     because: str
+    source: str = field(default="", compare=False)
+    alternatives: tuple[Alternative, ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,6 +216,8 @@ class Protocol:
 
     ``carries`` tells what its source could say at all, so that a comparison does not take silence
     for a difference; ``made_from`` is the digest of the protocol that it says it was made from.
+    ``chosen`` names the edition and the readings where they are not the usual ones, as
+    ``v4.6+E50b``; ``variants`` are those that can be chosen at run time.
     """
 
     name: str
@@ -191,6 +225,7 @@ class Protocol:
     title: str = ""
     english: str = ""
     edition: str = ""
+    chosen: str = ""
     nodes: tuple[Node, ...] = ()
     buses: tuple[Bus, ...] = ()
     messages: tuple[Message, ...] = ()
@@ -200,6 +235,7 @@ class Protocol:
     errata: tuple[Erratum, ...] = ()
     carries: frozenset[Aspect] = field(default=frozenset(Aspect), compare=False)
     made_from: str = field(default="", compare=False)
+    variants: tuple[Variant, ...] = field(default=(), compare=False)
 
     def signals(self) -> Iterator[tuple[Message, Signal]]:
         """Every signal with its message, in order."""

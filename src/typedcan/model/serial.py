@@ -26,11 +26,26 @@ Reader = Callable[[Any], Any]
 
 def to_json(protocol: Protocol) -> str:
     """A protocol as JSON text, a message a line."""
-    plain = _plain(protocol, {table.name: table for table in protocol.value_tables})
+    plain = to_plain(protocol)
     messages = plain.pop("messages", [])
     lines = [_compact(each) for each in messages]
     head = _compact({"format": FORMAT, "digest": protocol.digest, **plain})
     return f'{head[:-1]},"messages":[\n' + ",\n".join(lines) + "\n]}\n"
+
+
+def to_plain(protocol: Protocol) -> dict[str, Any]:
+    """A protocol as dicts, lists, texts and numbers, without its digest."""
+    plain: dict[str, Any] = _plain(protocol, {table.name: table for table in protocol.value_tables})
+    return plain
+
+
+def from_plain(plain: Mapping[str, Any], where: str) -> Protocol:
+    """The protocol that `to_plain` makes this of; raises `ReadError` where it is none."""
+    try:
+        protocol: Protocol = _Readers(plain.get("value_tables", ())).of(Protocol)(plain)
+    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError) as error:
+        raise ReadError(f"{where}: not the JSON of a protocol: {error!r}") from None
+    return protocol
 
 
 def from_json(text: str, where: str) -> Protocol:
@@ -43,11 +58,9 @@ def from_json(text: str, where: str) -> Protocol:
         if plain.pop("format", None) != FORMAT:
             raise ReadError(f"{where}: of another version: run `dbcspec generate` again")
         digest = plain.pop("digest")
-        protocol = _Readers(plain.get("value_tables", ())).of(Protocol)(plain)
-    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise ReadError(f"{where}: not the JSON of a protocol: {error!r}") from None
-    if not isinstance(protocol, Protocol):
-        raise ReadError(f"{where}: not the JSON of a protocol")
+    protocol = from_plain(plain, where)
     # What it is computed from stands here too: no need to do that at every start.
     protocol.__dict__["digest"] = str(digest)
     return protocol

@@ -67,6 +67,7 @@ class Signal:
     unit: str = ""
     value_table: ValueTable | None = None
     invalid_code: int | None = None
+    other_invalid_codes: tuple[int, ...] = ()
     abnormal_code: int | None = None
     start_value: int = 0
     acting: ActingCodes | None = None
@@ -81,10 +82,14 @@ class Signal:
 
     @property
     def states(self) -> Mapping[int, SignalState]:
-        """The raw values that are no value, and what they say."""
+        """The raw values that are no value, and what they say.
+
+        Several may say that it is invalid; ``invalid_code`` is the one that is sent.
+        """
         pairs = (
             (self.invalid_code, SignalState.INVALID),
             (self.abnormal_code, SignalState.ABNORMAL),
+            *((code, SignalState.INVALID) for code in self.other_invalid_codes),
         )
         return MappingProxyType({code: state for code, state in pairs if code is not None})
 

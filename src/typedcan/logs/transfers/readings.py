@@ -98,7 +98,6 @@ def values_of(protocol: Protocol) -> tuple[Parts, ...]:
 
 
 def _readings(parts: Parts, group: Part, number: Part) -> Readings:
-    states = (group.signal.invalid_code, group.signal.abnormal_code)
     total_signals = [part for part in (parts.groups, parts.count) if part]
     return Readings(
         name=parts.table,
@@ -107,7 +106,7 @@ def _readings(parts: Parts, group: Part, number: Part) -> Readings:
         period=parts.period or 0,
         group=group.signal.name,
         number=number.signal.name,
-        no_group=tuple(code for code in states if code is not None),
+        no_group=tuple(group.signal.states),
         items=tuple(part.signal.name for part in parts.items),
         unit=parts.items[0].signal.unit,
         totals=total_signals[0].message.name if total_signals else parts.messages[0].name,

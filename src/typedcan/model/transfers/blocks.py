@@ -116,6 +116,6 @@ def _are_bytes(parts: Parts) -> bool:
         part.is_whole_number
         and not part.signal.unit
         and part.signal.length <= 8
-        and part.signal.invalid_code is part.signal.abnormal_code is None
+        and not part.signal.states
         for part in parts.items
     )

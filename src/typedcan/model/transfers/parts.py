@@ -25,17 +25,15 @@ class Part(NamedTuple):
         """The highest value that is none of the codes for having none."""
         signal = self.signal
         highest = min(signal.raw_range[1], signal.raw_limits[1])
-        while highest in (signal.invalid_code, signal.abnormal_code):
+        while highest in signal.states:
             highest -= 1
         return highest
 
     def value_of(self, raw: int) -> float | SignalState:
         """What the signal holds where its bits are ``raw``."""
         signal = self.signal
-        if raw == signal.invalid_code:
-            return SignalState.INVALID
-        if raw == signal.abnormal_code:
-            return SignalState.ABNORMAL
+        if raw in signal.states:
+            return signal.states[raw]
         if self.is_whole_number:
             return raw
         return float(raw * signal.factor + signal.offset)
