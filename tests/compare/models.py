@@ -73,6 +73,7 @@ def signals(name: str) -> st.SearchStrategy[Signal]:
         unit=texts,
         value_table=st.none() | tables,
         invalid_code=st.none() | st.integers(0, 40),
+        other_invalid_codes=st.just(()) | st.tuples(st.integers(41, 50)),
         abnormal_code=st.none() | st.integers(0, 40),
         start_value=st.integers(0, 40),
         acting=st.none() | acting,

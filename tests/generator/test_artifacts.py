@@ -11,6 +11,7 @@ from generator.small_spec import write_project
 from dbcspec.artifacts import Stale, artifacts, verify, write
 from dbcspec.config import find_config
 from dbcspec.project import Project, load
+from dbcspec.spec.variants import with_variants
 from typedcan.model.errors import ReadError
 
 DBC_FILES = ("thermo.dbc", "thermo.zh.dbc", "thermo.zh-utf8.dbc", "thermo-house.dbc")
@@ -22,7 +23,12 @@ def small(tmp_path: Path) -> Project:
 
 
 def files_of(project: Project) -> dict[str, bytes]:
-    return artifacts(project.protocol, project.config)
+    editions = [edition.name for edition in project.printed.editions]
+    return artifacts(
+        with_variants(project.protocol, project.printed),
+        project.config,
+        {name: load(project.config, name).protocol for name in editions},
+    )
 
 
 def checked(project: Project) -> list[Stale]:
@@ -44,7 +50,7 @@ def test_a_project_without_python_gets_dbc_files_and_schemas(small: Project) -> 
     }
     schemas = {name for name in names if name.startswith("spec/schema/")}
     assert names - schemas == {f"out/{name}" for name in DBC_FILES}
-    assert len(schemas) == 5
+    assert len(schemas) == 7
 
 
 def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path: Path) -> None:

@@ -137,7 +137,7 @@ def test_keep_changes_nothing_and_marks_the_row(tmp_path: Path) -> None:
         ("{at: [tables/01-heater/4], set: {factor: 0.50}}", "factor is 0.5"),
         ("{at: [tables/01-heater/4], set: {}}", "nothing changes"),
         ("{at: [tables/01-heater/4], set: {codes: {same_as: H_Mode}}}", "give the codes"),
-        ("{at: [tables/01-heater/4]}", "exactly one of set, add, relabel, keep"),
+        ("{at: [tables/01-heater/4]}", "exactly one of set, add, remove, relabel, keep"),
         ("{at: [tables/01-heater/4], set: {unit: K}, keep: [unit]}", "exactly one of set, add"),
         ("{at: [tables/01-heater/4], add: {unit: K}}", "'unit' is not a list"),
         ("{at: [standard/buses/house], add: {nodes: [PANEL]}}", "nodes has that already"),

@@ -134,7 +134,7 @@ def _set(value: Any, erratum: str, change: ChangeRow) -> Record:
         new = keys[name.text].kind.read(node)
         if isinstance(new, SameCodes):
             raise _RefusedError("same_as is for tables: give the codes")
-        if new == getattr(record, name.text):
+        if new == getattr(record, name.text) and name.text in record.places:
             raise _RefusedError(f"{name.text} is {node_text(new)} already: nothing changes")
         values[name.text] = new
         places[name.text] = node.where

@@ -17,10 +17,10 @@ from dbcspec.spec.rows import (
     SignalRow,
     SignalTable,
     Spec,
-    Standard,
 )
 from dbcspec.spec.schema import RecordT
 from dbcspec.spec.source import read_yaml
+from dbcspec.spec.standard_rows import Standard
 from typedcan.model.errors import Location
 
 _EDITION = "edition.yaml"

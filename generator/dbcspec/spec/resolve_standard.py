@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from dbcspec.spec.readings import ReadErratum
-from dbcspec.spec.rows import SignalRow, SignalTable, Standard
+from dbcspec.spec.rows import SignalRow, SignalTable
+from dbcspec.spec.standard_rows import Standard
 from typedcan.model import protocol as model
 
 
