@@ -10,6 +10,7 @@ from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.spec.compiled import compile_spec
 from dbcspec.spec.rows import Spec
+from typedcan.model.checksums.registry import Given
 from typedcan.model.protocol import Protocol
 
 
@@ -23,17 +24,18 @@ class Project:
     errata_faults: tuple[Fault, ...]
     printed: Spec
 
-    def findings(self) -> list[Finding]:
+    def findings(self, algorithms: Given | None = None) -> list[Finding]:
         """What the linter finds and no waiver accepts."""
-        return lint_with(self.subject(), self.config.lint)
+        return lint_with(self.subject(algorithms), self.config.lint)
 
-    def subject(self) -> Subject:
-        """What the linter looks at."""
+    def subject(self, algorithms: Given | None = None) -> Subject:
+        """What the linter looks at; ``algorithms`` are what users give to compute checksums."""
         return Subject(
             protocol=self.protocol,
             spec=self.spec,
             errata_faults=self.errata_faults,
             source=self.config.spec,
+            algorithms=algorithms or {},
         )
 
 

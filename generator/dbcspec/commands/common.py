@@ -13,9 +13,12 @@ from dbcspec.config import find_config
 from dbcspec.errors import FindingsError
 from dbcspec.project import Project, load
 from dbcspec.read.doors import open_side
+from typedcan.model.checksums.registry import Given
 from typedcan.model.protocol import Protocol
+from typedcan.model.seal import seals_of
 from typedcan.report.formats import FORMATS, render
 from typedcan.report.item import Report
+from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import say_text
 
 
@@ -65,10 +68,18 @@ def load_project(options: argparse.Namespace, choice: str = "") -> Project:
     return load(find_config(options.project.resolve()), choice)
 
 
+def given_algorithms(options: argparse.Namespace, protocol: Protocol) -> Given:
+    """What --algorithm says; raises `AlgorithmError` where the protocol has none of a name."""
+    given = algorithms_of(options)
+    if given:
+        seals_of(protocol.messages, given)
+    return given
+
+
 def load_sound_project(options: argparse.Namespace, choice: str = "") -> Project:
     """The project, if the linter has nothing against it; raises `FindingsError`."""
     project = load_project(options, choice)
-    if findings := project.findings():
+    if findings := project.findings(given_algorithms(options, project.protocol)):
         raise FindingsError(findings)
     return project
 

@@ -19,6 +19,7 @@ from dbcspec.commands.common import (
     Commands,
     choice_options,
     choice_text,
+    given_algorithms,
     load_sound_project,
     project_option,
 )
@@ -30,6 +31,7 @@ from dbcspec.spec.variants import with_variants
 from dbcspec.trial import try_package
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
+from typedcan.shell.algorithms import add_algorithm_option
 from typedcan.shell.console import say
 from typedcan.shell.printing import printable_json
 
@@ -49,12 +51,14 @@ def add(commands: Commands) -> None:
     )
     choice_options(generate)
     generate.add_argument("--encoding", help="of FILE, where it is not to be found out")
+    add_algorithm_option(generate)
 
     text = HELP["check"]
     check = commands.add_parser("check", help=text, description=f"{text.capitalize()}.")
     check.set_defaults(run=_check)
     project_option(check)
     check.add_argument("--json", action="store_true", help="print JSON")
+    add_algorithm_option(check)
 
 
 def _generate(options: argparse.Namespace) -> int:
@@ -65,6 +69,7 @@ def _generate(options: argparse.Namespace) -> int:
         raise ReadError("--out goes together with --from, --edition or --reading")
     if options.source:
         protocol = open_side(options.source, encoding=options.encoding).protocol
+        given_algorithms(options, protocol)
         name = package_name(Path(options.source.rsplit(":", 1)[-1]).stem)
         root, files = options.out, foreign_artifacts(protocol, name)
         try_package(files, name, f"{name}.dbc")

@@ -11,6 +11,7 @@ from dbcspec.commands.common import (
     Commands,
     choice_options,
     choice_text,
+    given_algorithms,
     load_project,
     print_report,
     project_option,
@@ -28,6 +29,7 @@ from typedcan.databases.encoding import read_encoded
 from typedcan.model.errors import ReadError
 from typedcan.report.item import Report
 from typedcan.report.rules import print_rules
+from typedcan.shell.algorithms import add_algorithm_option
 from typedcan.shell.console import say_text
 from typedcan.shell.printing import print_remark
 
@@ -46,6 +48,7 @@ def add(commands: Commands) -> None:
     lint.add_argument("--encoding", help="of TARGET, where it is not to be found out")
     lint.add_argument("--fix", action="store_true", help="mend a DBC file where that is certain")
     choice_options(lint)
+    add_algorithm_option(lint)
     report_options(lint)
 
     text = HELP["rules"]
@@ -67,12 +70,13 @@ def _lint(options: argparse.Namespace) -> int:
             errata_faults=side.errata_faults,
             dbc_text=_dbc_text(Path(options.target), options.encoding),
             source=options.target,
+            algorithms=given_algorithms(options, side.protocol),
         )
         title = options.target
     else:
         project = load_project(options, choice_text(options))
         found = project.config.lint
-        subject = project.subject()
+        subject = project.subject(given_algorithms(options, project.protocol))
         title = project.config.spec
     if options.config:
         found = read_lint_config(options.config)

@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 from dbcspec.errors import Fault
 from dbcspec.spec.rows import Spec
+from typedcan.model.checksums.methods import Algorithm
+from typedcan.model.checksums.registry import Given
 from typedcan.model.errors import Location
 from typedcan.model.protocol import NOWHERE, Protocol
 
@@ -65,7 +67,8 @@ class Subject:
     ``spec`` has the corrected rows where a spec is the source, ``errata_faults`` the changes that
     could not be made. ``dbc_text`` is the whole text where a DBC file is the source. ``source``
     is the file that findings without a place of their own are shown at. ``unused_waivers`` are
-    those that matched no finding of the other rules.
+    those that matched no finding of the other rules, ``algorithms`` what users give to compute
+    checksums.
     """
 
     protocol: Protocol
@@ -75,6 +78,7 @@ class Subject:
     settings: Settings = dataclasses.field(default_factory=Settings)
     errata_faults: tuple[Fault, ...] = ()
     unused_waivers: tuple[Waiver, ...] = ()
+    algorithms: Given = dataclasses.field(default_factory=dict[str, Algorithm | str])
 
 
 class Found(NamedTuple):

@@ -6,10 +6,10 @@ import argparse
 
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from typedcan.commands.algorithms import add_algorithm_option
 from typedcan.commands.bus_options import add_bus_options
 from typedcan.commands.conform import add_listening, add_log_options, names
 from typedcan.commands.log_options import need
+from typedcan.shell.algorithms import add_algorithm_option
 from typedcan.shell.command_line import Command
 
 

@@ -15,7 +15,6 @@ from swapcan.nodes.faults import FAULTS, able_nodes, planned_fault
 from swapcan.nodes.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.nodes.simulation import check
 from swapcan.wire import Codec
-from typedcan.commands.algorithms import add_algorithm_option, algorithms_of
 from typedcan.commands.bus_options import (
     add_bus_options,
     add_consent,
@@ -24,6 +23,7 @@ from typedcan.commands.bus_options import (
     is_virtual,
     open_bus,
 )
+from typedcan.shell.algorithms import add_algorithm_option, algorithms_of
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import say, seconds
 from typedcan.shell.printing import aligned

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-from typedcan.commands.algorithms import algorithms_of
 from typedcan.judge import Judge, Judgement, Rule, judge_log
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.tolerance import SHARED
 from typedcan.logs.window import Moment
 from typedcan.model.checksums.registry import Given
+from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError
 from typedcan.wire.protocol import Protocol
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from typedcan.commands.algorithms import algorithms_of
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool, dbc_of
 from typedcan.logs.convert import convert_logs
@@ -17,6 +16,7 @@ from typedcan.logs.progress import Progress
 from typedcan.logs.raster import raster_step
 from typedcan.logs.transfers.tables import TransferTables
 from typedcan.logs.window import moment
+from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError, note, say
 from typedcan.shell.printing import printable_json
 

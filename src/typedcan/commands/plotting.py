@@ -6,7 +6,6 @@ import argparse
 import secrets
 from pathlib import Path
 
-from typedcan.commands.algorithms import algorithms_of
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool
 from typedcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
@@ -16,6 +15,7 @@ from typedcan.logs.protocol import Protocol
 from typedcan.logs.transfers.readings import Readings
 from typedcan.logs.window import Moment, moment
 from typedcan.model.plain import shown
+from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError, note
 
 DAMAGED = 3

@@ -7,11 +7,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from typedcan.commands.algorithms import add_algorithm_option, algorithms_of
 from typedcan.dynamic import typed_protocol
 from typedcan.model import protocol as model
 from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.monitor.glance import Glance
+from typedcan.shell.algorithms import add_algorithm_option, algorithms_of
 from typedcan.shell.command_line import Command, completing_files
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
