@@ -16,6 +16,21 @@ from swapcan.logs import Options, tables
 CASES = Path(__file__).parents[1] / "fixtures" / "cases"
 
 
+_NAMES = """VERSION ""
+
+BS_:
+
+BU_: A
+
+BO_ 256 M1: 1 A
+ SG_ P : 0|4@1+ (1,0) [0|15] "" A
+ SG_ P : 4|4@1+ (1,0) [0|15] "" A
+
+BO_ 257 M1: 1 A
+ SG_ R : 0|8@1+ (1,0) [0|255] "" A
+"""
+
+
 def _log(folder: Path, *frames: str) -> Path:
     path = folder / "log.log"
     path.write_text("".join(f"({at}.000000) can0 {each}\n" for at, each in enumerate(frames)))
@@ -82,6 +97,72 @@ def test_what_is_not_as_one_might_think_is_told(
     assert cli.run(arguments) == 0
     shown = capsys.readouterr()
     assert said in shown.out + shown.err
+
+
+@pytest.mark.parametrize("command", ["decode", "convert"])
+def test_two_of_one_name_are_told_by_both_decoders(
+    command: str, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "names.dbc").write_text(_NAMES)
+    log = _log(tmp_path, "100#07", "101#09")
+    output = ["-o", str(tmp_path / "out")] if command == "convert" else []
+    with caplog.at_level(logging.WARNING, "typedcan"):
+        assert cli.run([command, str(log), "--dbc", str(tmp_path / "names.dbc"), *output]) == 0
+    told = "names: M1: a second signal P is called P_2; a second message M1 is called M1_2"
+    assert told in [each.getMessage() for each in caplog.records]
+    if output:
+        table = pq.read_table(tmp_path / "out" / "M1.parquet")
+        assert _signals(table) == {"P": [7], "P_2": [0]}
+
+
+_FORMATS = """VERSION ""
+
+BS_:
+
+BU_: A
+
+BO_ 256 Short: 4 A
+ SG_ P : 0|8@1+ (1,0) [0|255] "" A
+
+BO_ 257 Empty: 0 A
+
+BO_ 258 Long: 12 A
+ SG_ Q : 88|8@1+ (1,0) [0|255] "" A
+ SG_ Q : 80|8@1+ (1,0) [0|255] "" A
+
+BA_DEF_ BO_ "VFrameFormat" ENUM "StandardCAN","StandardCAN_FD";
+BA_DEF_DEF_ "VFrameFormat" "StandardCAN";
+BA_ "VFrameFormat" BO_ 258 1;
+"""
+
+
+def test_both_decoders_refuse_and_doubt_the_same_frames(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "formats.dbc").write_text(_FORMATS)
+    twelve = "0102030405060708090A0B0C"
+    log = _log(
+        tmp_path,
+        *("100#01020304", "100#0102030405", "100#010203", "100##101020304", "100#0102030405060708"),
+        *("101#", "101#01"),
+        *(f"102##1{twelve}", "102#0102030405060708", f"102##1{twelve}0D0E0F10"),
+    )
+    database = ["--dbc", str(tmp_path / "formats.dbc")]
+    assert cli.run(["decode", str(log), *database]) == 0
+    told = capsys.readouterr()
+    assert "faults 7 (length 6, checksum 0, counter 0, format 1)" in told.err
+    assert "! came in a CAN FD frame" in told.out
+    out = ["-o", str(tmp_path / "out"), "--json"]
+    assert cli.run(["convert", str(log), *database, *out]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["wrong_length"] == {"Short": 3, "Empty": 1, "Long": 2}
+    assert found["wrong_format"] == {"Short": 1}
+    assert found["rows"] == {"Short": 2, "Empty": 1, "Long": 1}
+    assert pq.read_table(tmp_path / "out" / "Long.parquet").column("Q_2").to_pylist() == [11]
+    out = ["-o", str(tmp_path / "all"), "--keep-faulty"]
+    assert cli.run(["convert", str(log), *database, *out]) == 0
+    assert "in frames of another format: Short 1" in capsys.readouterr().err
+    assert pq.read_table(tmp_path / "all" / "Short.parquet").num_rows == 4  # not that of 3 bytes
 
 
 def test_the_columns_that_have_other_names_and_the_rest_are_there_for_programs(

@@ -15,6 +15,7 @@ from typedcan.logs.checksums import (
     raw_values,
 )
 from typedcan.logs.columns import Column, DecodedBlock, MessageColumns
+from typedcan.logs.frames import FrameFlag
 from typedcan.logs.protocol import Protocol
 from typedcan.model.checksums.registry import Given
 from typedcan.model.protection import Counter as AliveCounter
@@ -54,6 +55,9 @@ class Faults:
         Frames with a wrong checksum.
     counter
         Frames with a wrong alive counter, as `typedcan.wire.protect.ReceiveCounters` has it.
+    format
+        Frames of CAN FD where the message has classic CAN, or the other way round; their bits are
+        those of the message.
     gaps
         Of messages that are sent periodically: more than `PERIODS` periods without a frame,
         between two frames or at the end of the log.
@@ -62,6 +66,7 @@ class Faults:
     length: Counter[str] = field(default_factory=Counter[str])
     checksum: Counter[str] = field(default_factory=Counter[str])
     counter: Counter[str] = field(default_factory=Counter[str])
+    format: Counter[str] = field(default_factory=Counter[str])
     gaps: dict[str, Gaps] = field(default_factory=dict[str, Gaps])
 
     def add(self, other: Faults) -> None:
@@ -69,6 +74,7 @@ class Faults:
         self.length.update(other.length)
         self.checksum.update(other.checksum)
         self.counter.update(other.counter)
+        self.format.update(other.format)
         for name, gaps in other.gaps.items():
             self.gaps.setdefault(name, Gaps()).add(gaps)
 
@@ -92,7 +98,7 @@ class Checks:
     Parameters
     ----------
     protocol
-        The messages; those of databases have no known checksums and counters.
+        The messages.
     keep_faulty
         Count wrong lengths and checksums, but leave the frames in. Their counters are passed over
         all the same.
@@ -117,6 +123,7 @@ class Checks:
             for name, period in protocol.periods.items()
             if name not in protocol.conditional
         }
+        self._formats_known = protocol.formats_known
         self._keep_faulty = keep_faulty
         self._counting = _counters(protocol)
         self._last_counter: dict[_Stream, int | None] = {}
@@ -130,12 +137,14 @@ class Checks:
         self.faults.length.update(counts.too_short)
         for name, columns in decoded.messages.items():
             kept = sound = columns
-            good = self._good(self._checked[name], columns) if name in self._checked else None
+            message = self._checked[name]
+            good = self._good(message, columns)
             if good is not None:
                 sound = rows_where(columns, good)
                 kept = columns if self._keep_faulty else sound
                 counts.decoded[name] += len(kept) - len(columns)
             if len(sound):
+                self._formats(message, sound)
                 self._follow(name, sound)
             if len(kept):
                 messages[name] = kept
@@ -167,6 +176,14 @@ class Checks:
                 self.faults.checksum[message.name] += wrong
             good &= right
         return None if good.all() else good
+
+    def _formats(self, message: Message, columns: MessageColumns) -> None:
+        """Count the frames that have another format than their message."""
+        if self._formats_known:
+            is_fd = columns.block.flags[columns.rows] & FrameFlag.FD
+            of_fd = int(np.count_nonzero(is_fd))
+            if wrong := len(columns) - of_fd if message.is_fd else of_fd:
+                self.faults.format[message.name] += wrong
 
     def _follow(self, name: str, columns: MessageColumns) -> None:
         """Counter and gaps of one message, by channel and, of one found by PGN, by sender."""
@@ -236,8 +253,7 @@ def _counters(protocol: Protocol) -> dict[str, _Counting]:
     """By message, the alive counters that can be followed."""
     counters: dict[str, _Counting] = {}
     for message in protocol.messages:
-        checked = protocol.checked.get(message.name)
-        counter = checked.counter if checked else None
+        counter = protocol.checked[message.name].counter
         if counter:
             signal = message.signal(counter.signal)
             reserved = tuple(protocol.reserved.get((message.name, counter.signal), ()))

@@ -34,7 +34,9 @@ class Protocol:
     conditional
         The names of those that are sent only while a condition holds: when they end is no gap.
     checked
-        The messages whose length, checksum and alive counter are known, by name.
+        The messages by name, with all that is known of length, checksum and alive counter.
+    formats_known
+        Whether it is known which messages come in frames of CAN FD.
     readings
         What comes in groups over several frames, and becomes columns of its own.
     values
@@ -49,6 +51,7 @@ class Protocol:
     periods: Mapping[str, float]
     conditional: frozenset[str]
     checked: Mapping[str, model.Message]
+    formats_known: bool
     readings: tuple[Readings, ...]
     values: tuple[Parts, ...]
 
@@ -79,7 +82,6 @@ def known(protocol: model.Protocol) -> Protocol:
             for message in protocol.messages
             if message.period and message.send_type is model.SendType.IF_ACTIVE
         ),
-        checked={message.name: message for message in protocol.messages},
         readings=readings_of(protocol),
         values=values_of(protocol),
     )
@@ -87,15 +89,17 @@ def known(protocol: model.Protocol) -> Protocol:
 
 def read(protocol: model.Protocol, name: str) -> Protocol:
     """A protocol as a database says it, under a name of its own."""
+    messages = with_unique_names(protocol).messages
     return Protocol(
         name=name,
         digest=protocol.made_from,
-        messages=[_readable(message) for message in with_unique_names(protocol).messages],
+        messages=[_readable(message) for message in messages],
         reserved={},
         references={},
         periods={each.name: each.period / 1000 for each in protocol.messages if each.period},
         conditional=frozenset(),
-        checked={each.name: each for each in protocol.messages if each.checksum or each.counter},
+        checked={each.name: each for each in messages},
+        formats_known=model.Aspect.FRAME_FORMATS in protocol.carries,
         readings=(),
         values=(),
     )
@@ -103,7 +107,7 @@ def read(protocol: model.Protocol, name: str) -> Protocol:
 
 def same(database: Protocol, own: Protocol) -> Protocol:
     """What is known of a protocol, with the messages, units and labels of a database of it."""
-    return replace(own, messages=database.messages)
+    return replace(own, messages=database.messages, checked={**database.checked, **own.checked})
 
 
 def _readable(message: model.Message) -> model.Message:

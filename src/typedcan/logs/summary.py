@@ -118,6 +118,7 @@ class Summary:
         yield "wrong length", self.faults.length
         yield "wrong checksum", self.faults.checksum
         yield "wrong counter", self.faults.counter
+        yield "in frames of another format", self.faults.format
         yield "selector without a branch", self.counts.without_branch
         for kind, title in _TRANSFERS.items():
             yield title, +Counter({name: each[kind] for name, each in self.problems.items()})
@@ -139,6 +140,7 @@ class Summary:
             "wrong_length": dict(faults.length),
             "wrong_checksum": dict(faults.checksum),
             "wrong_counter": dict(faults.counter),
+            "wrong_format": dict(faults.format),
             "gaps": {
                 name: {"count": gaps.count, "longest": gaps.longest}
                 for name, gaps in faults.gaps.items()

@@ -18,7 +18,14 @@ _Condition = Mapping[str, frozenset[int]]
 
 
 def remarks(protocol: Protocol) -> Iterator[str]:
-    """What is odd, a line each: signals that are left out or share bits, messages that hide."""
+    """What is odd, a line each: names that are taken, messages that hide, signals left out."""
+    unique = with_unique_names(protocol)
+    for message, other in zip(protocol.messages, unique.messages, strict=True):
+        if message.name != other.name:
+            yield f"a second message {message.name} is called {other.name}"
+        for signal, renamed in zip(message.signals, other.signals, strict=True):
+            if signal.name != renamed.name:
+                yield f"{message.name}: a second signal {signal.name} is called {renamed.name}"
     for name, later in hidden(protocol).items():
         yield f"{name} has the identifier of {later}: frames are taken for {later}"
     for message in protocol.messages:
