@@ -101,3 +101,32 @@ def test_branches_in_branches_are_those_that_cantools_finds(outer: int, inner: i
         again = codec.encode(mine)
         assert again == theirs.encode(values, strict=False)
         assert codec.decode(kind.FRAME_ID, again) == mine
+
+
+def test_a_selector_behind_the_signals_of_its_branch_selects_them() -> None:
+    """Also where its raw values have no labels, and where it is in a branch itself."""
+    codec = Codec(typed_protocol(read_dbc(FIXTURES / "dbc" / "selectors_behind.dbc")))
+    decoded = codec.decode(256, bytes.fromhex("2A00070000C80000"))  # Outer is 200, Inner 7
+    assert decoded == _made(codec.protocol, "Pages", outer=200, inner=7, detail=42)
+    decoded = codec.decode(256, bytes.fromhex("FE00FF0000800000"))
+    assert decoded == _made(codec.protocol, "Pages", outer=128, inner=255, depth=-4.0)
+    decoded = codec.decode(256, bytes.fromhex("0000341201020304"))
+    assert decoded == _made(codec.protocol, "Pages", outer=2, last=1, deep=0x0304)
+
+
+def test_labels_that_are_letters_make_letters_where_nothing_is_scaled() -> None:
+    codec = Codec(typed_protocol(read_dbc(FIXTURES / "dbc" / "selectors_behind.dbc")))
+    message = codec.decode(257, bytes.fromhex("41414141FF000000"))
+    made = _made(
+        codec.protocol, "Letters", scaled=33.5, moved=55.0, plain="A", numbers=65, signed=-1
+    )
+    assert message == made
+    assert codec.encode(message) == bytes.fromhex("41414141FF000000")
+    shown = {each.name: each.text(getattr(message, each.name)) for each in message.FIELDS.values()}
+    assert shown == {
+        "scaled": "33.5",
+        "moved": "55",
+        "plain": "A",
+        "numbers": "66",
+        "signed": "0xFF",
+    }

@@ -258,7 +258,8 @@ class CharacterField(Field):
             given = character(value) or integer(value)
         if isinstance(given, str) and len(given) == 1 and self.labels.get(ord(given)) == given:
             return ord(given)
-        if isinstance(given, int) and 0 <= given < 1 << self.length:
+        least = -1 << self.length - 1 if self.signal.signed else 0
+        if isinstance(given, int) and least <= given < least + (1 << self.length):
             return given
         known = "".join(self.labels.values())
         problem = f"{shown(value)} is none of the characters {known} and no code {self._limits()}"
@@ -266,7 +267,7 @@ class CharacterField(Field):
 
     def text(self, value: Value) -> str:
         """The character, or the code where it is none."""
-        return f"0x{value:02X}" if isinstance(value, int) else str(value)
+        return f"0x{value % (1 << self.length):02X}" if isinstance(value, int) else str(value)
 
 
 class FilledField(NumberField):
