@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import random
 from pathlib import Path
 
@@ -66,6 +67,32 @@ def test_the_speeds_of_the_truck_stand_beside_their_sources(tmp_path: Path) -> N
         "priority": [6, 6, 6],
         "WheelBasedVehicleSpeed": [16.0, 32.0, 48.0],
     }
+
+
+def test_a_raster_says_that_it_takes_sources_together(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output = tmp_path / "truck.csv"
+    arguments = ["--dbc", str(TRUCK), "convert", str(LOG), "-o", str(output)]
+    said = "CCVS1 is sampled from several sources: 0x00, 0x03, 0xFE"
+    assert program.main([*arguments, "--raster", "100ms"]) == 0
+    assert said in capsys.readouterr().err
+    assert program.main([*arguments, "--raster", "100ms", "--force", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["several_sources"] == {
+        "CCVS1": ["0x00", "0x03", "0xFE"]
+    }
+    assert program.main([*arguments, "--force", "--json"]) == 0  # with a column for the source
+    assert json.loads(capsys.readouterr().out)["several_sources"] == {}
+
+
+def test_a_raster_of_one_source_says_nothing_of_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = tmp_path / "one.log"
+    log.write_text("".join(LOG.read_text("ascii").splitlines(keepends=True)[1:2]), "ascii")
+    arguments = ["--dbc", str(TRUCK), "convert", str(log), "-o", str(tmp_path / "one.csv")]
+    assert program.main([*arguments, "--raster", "100ms"]) == 0
+    assert "sources" not in capsys.readouterr().err
 
 
 def test_each_frame_is_the_message_that_it_is_live() -> None:

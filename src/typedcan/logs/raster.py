@@ -70,7 +70,8 @@ class Raster(Shape):
     Points are the multiples of the step, from the first after the log's first frame to the last
     frame. At each point a signal has the value of the last frame at or before it; null before the
     first frame, and where the last one is more than `typedcan.logs.checks.PERIODS` periods back.
-    Messages without a period keep their value. A column is named like its signal; where two
+    Messages without a period keep their value; of a PGN the last frame counts, whatever its source.
+    A column is named like its signal; where two
     messages of the protocol have a signal of one name, or it is that of the times,
     ``message.signal``.
 
@@ -93,6 +94,7 @@ class Raster(Shape):
         self._held = {
             name: _Held(PERIODS * periods[name] if name in periods else np.inf) for name in tables
         }
+        self._sources: dict[str, frozenset[int]] = {}
         self._next: int | None = None
         self._end = -np.inf
         counts = Counter(s.name for message in protocol.messages for s in message.signals)
@@ -109,6 +111,11 @@ class Raster(Shape):
         """The one table."""
         return {RASTER_TABLE: self._schema}
 
+    @property
+    def taken_together(self) -> Mapping[str, frozenset[int]]:
+        """The sources of each message that is found by its PGN."""
+        return self._sources
+
     def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
         """The rows up to the last frame of the block."""
         sound = [_with_times(columns) for columns in decoded.messages.values()]
@@ -117,6 +124,9 @@ class Raster(Shape):
             return
         for columns in sound:
             self._hold(columns)
+            if columns.by_pgn:
+                sources = frozenset(np.unique(columns.addresses[0]).tolist())
+                self._sources[columns.name] = self._sources.get(columns.name, sources) | sources
         ends = np.append(self._end, times[:-1])
         pauses = np.flatnonzero(times - ends > _PAUSE).tolist()
         for pause in pauses:

@@ -40,6 +40,11 @@ class Shape(Interface):
         """What was wrong with transfers, by their names, and how often; after the end."""
         return {}
 
+    @property
+    def taken_together(self) -> Mapping[str, frozenset[int]]:
+        """The source addresses of messages whose rows do not say from which they are."""
+        return {}
+
 
 class PerMessage(Shape):
     """A table per message, with a column per signal."""

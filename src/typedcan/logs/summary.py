@@ -54,6 +54,8 @@ class Summary:
         Signals whose column has another name, ``message.signal``, and that name.
     problems
         What was wrong with transfers, by their names, and how often.
+    taken_together
+        The source addresses of messages, found by their PGN, in one column of a raster.
     """
 
     logs: int = 0
@@ -69,6 +71,7 @@ class Summary:
     problems: dict[str, Counter[ProblemKind]] = field(
         default_factory=dict[str, Counter[ProblemKind]]
     )
+    taken_together: dict[str, frozenset[int]] = field(default_factory=dict[str, frozenset[int]])
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -83,6 +86,12 @@ class Summary:
         self.in_several_frames = other.in_several_frames
         self.renamed |= other.renamed
         self.add_problems(other.problems)
+        self.add_sources(other.taken_together)
+
+    def add_sources(self, found: Mapping[str, frozenset[int]]) -> None:
+        """Add the sources that are in one column."""
+        for name, sources in found.items():
+            self.taken_together[name] = self.taken_together.get(name, sources) | sources
 
     def add_problems(self, found: Mapping[str, Counter[ProblemKind]]) -> None:
         """Add what was wrong with transfers."""
@@ -102,16 +111,30 @@ class Summary:
         for title, found in self._troubles():
             if found:
                 yield f"{title}: {_listed(found)}"
+        yield from self._remarks()
+        for name, gaps in sorted(faults.gaps.items()):
+            yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
+        for damage in self.damage:
+            yield str(damage)
+
+    def _remarks(self) -> Iterator[str]:
+        """What is not as one might think."""
         for name, other in self.hidden.items():
             yield f"{name} has the identifier of {other}: its frames count as those of {other}"
         if self.in_several_frames:
             yield f"in several frames, not decoded: {_names(self.in_several_frames)}"
         for name, column in self.renamed.items():
             yield f"{name} is in the column {column}"
-        for name, gaps in sorted(faults.gaps.items()):
-            yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
-        for damage in self.damage:
-            yield str(damage)
+        for name, sources in self._mixed().items():
+            yield f"{name} is sampled from several sources: {_names(sources)}"
+
+    def _mixed(self) -> dict[str, list[str]]:
+        """The sources of what comes from several, and is in one column."""
+        return {
+            name: [f"0x{source:02X}" for source in sorted(sources)]
+            for name, sources in self.taken_together.items()
+            if len(sources) > 1
+        }
 
     def _troubles(self) -> Iterator[tuple[str, Counter[str]]]:
         """What was wrong, and how often with each message or transfer."""
@@ -158,6 +181,7 @@ class Summary:
             "hidden": self.hidden,
             "in_several_frames": list(self.in_several_frames),
             "renamed": self.renamed,
+            "several_sources": self._mixed(),
             "transfers": {name: dict(kinds) for name, kinds in self.problems.items()},
         }
 
