@@ -54,7 +54,10 @@ def test_convert_counts_it_in_one_process_and_in_several(
 ) -> None:
     option = f"BMS_CRC=commands.crc_of_ours:{function}"
     second = log.with_name("second.log")
-    second.write_bytes(log.read_bytes())
+    with can.LogReader(log) as frames, can.Logger(second) as logger:
+        for frame in frames:
+            frame.timestamp += 1000
+            logger.on_message_received(frame)
     for logs, jobs in (([log], "1"), ([log, second], "2")):
         output = tmp_path / f"{function}-{jobs}.parquet"
         names = [str(each) for each in logs]

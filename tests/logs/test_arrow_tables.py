@@ -11,7 +11,7 @@ import polars as pl
 import pyarrow as pa
 import pytest
 from cantools.database.can import Database, Message
-from logs.table_logs import decoded, traffic, write_frames
+from logs.table_logs import START, decoded, traffic, write_frames
 
 import swapcan
 from swapcan._generated import DIGEST
@@ -185,9 +185,11 @@ def test_pandas_and_polars_take_the_tables(log: Path) -> None:
     assert frame["B2V_ST2_SOC.state"].to_list() == table["B2V_ST2_SOC.state"].to_pylist()
 
 
-def test_several_logs_follow_one_another(log: Path) -> None:
-    once, twice = tables(log)["B2V_ST2"], tables(log, log)["B2V_ST2"]
-    assert twice.to_pydict() == {name: values + values for name, values in once.to_pydict().items()}
+def test_several_logs_follow_one_another(log: Path, tmp_path: Path) -> None:
+    later = write_frames(tmp_path / "later.blf", traffic(2, START + 1000))
+    parts = [tables(each)["B2V_ST2"].to_pydict() for each in (log, later)]
+    both = tables(later, log)["B2V_ST2"].to_pydict()  # in the order in which they were recorded
+    assert both == {name: values + parts[1][name] for name, values in parts[0].items()}
 
 
 @pytest.mark.parametrize(

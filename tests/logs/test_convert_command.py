@@ -162,7 +162,7 @@ def test_several_logs_become_one_output_in_their_order(
 def test_a_damaged_log_is_converted_up_to_the_damage_and_the_exit_status_is_3(
     log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    broken = write_frames(tmp_path / "broken.log", traffic(2))
+    broken = write_frames(tmp_path / "broken.log", traffic(2, START - 10))
     expected = tables(broken)["B2V_ST2"].num_rows
     with broken.open("ab") as file:
         file.write(b"(nonsense\n")

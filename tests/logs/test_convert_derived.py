@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
-from logs.table_logs import traffic, write_frames
+from logs.table_logs import START, traffic, write_frames
 
 from swapcan.logs import convert_logs
 from typedcan.logs.columns import DecodedBlock
@@ -44,8 +44,7 @@ def _busiest(protocol: Protocol) -> Shape:
 
 
 def test_a_derived_table_stands_beside_the_others(tmp_path: Path) -> None:
-    frames = traffic(3)
-    logs = [write_frames(tmp_path / f"{n}.log", frames) for n in range(2)]
+    logs = [write_frames(tmp_path / f"{n}.log", traffic(3, START + 10 * n)) for n in range(2)]
     options = Options(messages=("B2V_ST2",), derived=(_busiest,))
     _, summary = convert_logs(logs, tmp_path / "out.parquet", options, jobs=1)
     assert {path.stem for path in (tmp_path / "out").iterdir()} == {"B2V_ST2", "busy"}

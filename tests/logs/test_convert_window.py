@@ -34,7 +34,6 @@ def _times(path: Path) -> list[float]:
         (["--from", "2"], 2.0, 99.0),
         (["--to", "3.5"], 0.0, 3.5),
         (["--from", "2", "--to", "3.5"], 2.0, 3.5),
-        (["--from", "99"], 99.0, 99.0),
     ],
 )
 def test_a_part_is_chosen_by_seconds_since_the_begin(
@@ -59,6 +58,16 @@ def test_a_part_is_chosen_by_date_and_time(log: Path, tmp_path: Path) -> None:
     times = _times(tmp_path / "x.parquet")
     assert START + 2 <= min(times) < START + 2.2
     assert START + 2.8 < max(times) <= START + 3
+
+
+@pytest.mark.parametrize("part", [["--from", "99"], ["--to", "2001-02-03"]])
+def test_an_empty_part_says_what_the_log_spans_and_writes_nothing(
+    log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], part: list[str]
+) -> None:
+    assert _run(log, "-o", tmp_path / "x.parquet", "--recorded-in", "Asia/Shanghai", *part) == 2
+    said = capsys.readouterr().err
+    assert "from 2023-11-15 06:13:20.000+08:00 to 2023-11-15 06:13:27.994+08:00" in said
+    assert not [*tmp_path.iterdir()]
 
 
 def test_dates_are_refused_where_times_count_from_the_begin(

@@ -101,6 +101,7 @@ def test_what_is_wrong_with_them_is_counted_and_said(tmp_path: Path) -> None:
         with can.Logger(path) as logger:
             for frame in sent:
                 logger.on_message_received(frame)
+                frame.timestamp += 100
     _, summary = convert_logs(logs, tmp_path / "out", ALL, own=known(rack().model), jobs=1)
     assert summary.as_json()["transfers"] == {
         "serial": {"timeout": 2},

@@ -143,13 +143,16 @@ def test_a_name_without_suffix_is_a_folder_of_parquet_files(log: Path, tmp_path:
     assert found == {f"{message.NAME}.parquet" for message in MESSAGES}
 
 
-def test_what_is_there_is_replaced_only_if_forced(log: Path, tmp_path: Path) -> None:
+def test_what_is_there_is_replaced_only_if_forced(
+    log: Path, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    later = write_frames(tmp_path_factory.mktemp("later") / "x.blf", traffic(1, START + 1000))
     for output, options in (("x.parquet", _ONE), ("many.parquet", None)):
         convert_logs([log], tmp_path / output, options)
         with pytest.raises(OutputError, match="--force"):
             convert_logs([log], tmp_path / output, options)
-        convert_logs([log, log], tmp_path / output, options, force=True, jobs=1)
-    twice = tables(log, log)["B2V_ST2"].num_rows
+        convert_logs([log, later], tmp_path / output, options, force=True, jobs=1)
+    twice = tables(log, later)["B2V_ST2"].num_rows
     assert pq.read_table(tmp_path / "x.parquet").num_rows == twice
     assert pq.read_table(tmp_path / "many" / "B2V_ST2.parquet").num_rows == twice
     assert sorted(path.name for path in tmp_path.iterdir()) == ["many", "x.parquet"]

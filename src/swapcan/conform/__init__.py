@@ -22,7 +22,7 @@ from typedcan.judge.judgement import Judgement, RuleResult, Status, Verdict
 from typedcan.judge.rule import Rule, Severity
 from typedcan.judge.tolerance import Tolerance
 from typedcan.logs.checksums import NONE
-from typedcan.logs.window import Moment
+from typedcan.logs.part import ALL, Window
 from typedcan.model.checksums.registry import Given
 
 __all__ = [
@@ -84,11 +84,10 @@ def judge_log(
     *,
     rules: Sequence[Rule] = RULES,
     limits: Mapping[str, float] | None = None,
-    start: Moment | None = None,
-    end: Moment | None = None,
+    window: Window = ALL,
     watch: Callable[[int, int], None] | None = None,
     algorithms: Given = NONE,
 ) -> Judgement:
     """Judge a log of any kind; see `typedcan.judge.logs.judge_log`, and `Judge`."""
     by = Judge(nodes, rules, limits, algorithms=algorithms)
-    return logs.judge_log(by, log, start=start, end=end, watch=watch)
+    return logs.judge_log(by, log, window=window, watch=watch)

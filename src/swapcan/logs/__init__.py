@@ -24,14 +24,15 @@ _HOMES = {
     "Shape": "typedcan.logs.shapes",
     "Summary": "typedcan.logs.summary",
     "Target": "typedcan.logs.write.target",
+    "Window": "typedcan.logs.part",
     "convert_logs": "swapcan.log_tables",
     "decode_batch": "swapcan.log_tables",
     "frame_batches": "typedcan.logs.batch",
-    "moment": "typedcan.logs.window",
     "open_log": "typedcan.logs.read",
     "raster_step": "typedcan.logs.raster",
     "schemas": "swapcan.log_tables",
     "tables": "swapcan.log_tables",
+    "window_of": "typedcan.logs.part",
 }
 
 

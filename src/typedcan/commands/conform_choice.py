@@ -11,7 +11,7 @@ from typing import Self
 from typedcan.judge import Judge, Judgement, Rule, judge_log
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.tolerance import SHARED
-from typedcan.logs.window import Moment
+from typedcan.logs.part import ALL, Window
 from typedcan.model.checksums.registry import Given
 from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError
@@ -108,12 +108,11 @@ class Choice:
         log: Path,
         more: Sequence[Rule] = (),
         *,
-        start: Moment | None = None,
-        end: Moment | None = None,
+        window: Window = ALL,
         watch: Callable[[int, int], None] | None = None,
     ) -> Judgement:
         """Judge a log, by more rules where there are; raises as `judge_log`."""
-        return judge_log(self._judge(more), log, start=start, end=end, watch=watch)
+        return judge_log(self._judge(more), log, window=window, watch=watch)
 
     def _judge(self, more: Sequence[Rule]) -> Judge:
         return Judge(

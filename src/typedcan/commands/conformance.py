@@ -13,8 +13,8 @@ from typedcan.commands.conform_choice import Choice
 from typedcan.commands.conform_reports import Judged, Reports
 from typedcan.judge import Judgement, Rule, Severity, Status, Verdict, rules_for
 from typedcan.judge.tolerance import SHARED
+from typedcan.logs.part import window_of
 from typedcan.logs.progress import Progress
-from typedcan.logs.window import moment
 from typedcan.report.language import Language
 from typedcan.shell.console import CommandError, note, say
 from typedcan.shell.printing import aligned
@@ -132,8 +132,7 @@ def _is_on_bus(given: argparse.Namespace, more: Sequence[str]) -> bool:
 
 def _judged_logs(given: argparse.Namespace, choice: Choice) -> list[Judged]:
     sizes = [_size(log) for log in given.logs]
-    start = None if given.start is None else moment(given.start)
-    end = None if given.end is None else moment(given.end)
+    window = window_of(given.start, given.end, given.recorded_in)
     progress = Progress(sum(sizes))
     judged: list[Judged] = []
     read = frames = 0
@@ -143,7 +142,7 @@ def _judged_logs(given: argparse.Namespace, choice: Choice) -> list[Judged]:
 
     try:
         for log, size in zip(given.logs, sizes, strict=True):
-            judgement = choice.judge(log, start=start, end=end, watch=watch)
+            judgement = choice.judge(log, window=window, watch=watch)
             judged.append(Judged(judgement, log))
             read += size
             frames += sum(judgement.frames.values())

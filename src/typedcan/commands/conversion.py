@@ -10,12 +10,12 @@ from pathlib import Path
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool, dbc_of
 from typedcan.logs.convert import convert_logs
+from typedcan.logs.part import window_of
 from typedcan.logs.pipeline import Layout, Options
 from typedcan.logs.plan import Mode
 from typedcan.logs.progress import Progress
 from typedcan.logs.raster import raster_step
 from typedcan.logs.transfers.tables import TransferTables
-from typedcan.logs.window import moment
 from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError, note, say
 from typedcan.shell.printing import printable_json
@@ -64,8 +64,7 @@ def _options(given: argparse.Namespace) -> Options:
     options = Options(
         messages=tuple(given.messages),
         signals=tuple(given.signals),
-        start=None if given.start is None else moment(given.start),
-        end=None if given.end is None else moment(given.end),
+        window=window_of(given.start, given.end, given.recorded_in),
         mode=Mode.RAW if given.raw else Mode.LABELS if given.labels else Mode.PHYSICAL,
         layout=Layout.LONG if given.long else Layout.MESSAGES,
         keep_faulty=given.keep_faulty,

@@ -6,11 +6,10 @@ import argparse
 from functools import partial
 from pathlib import Path
 
-from typedcan.commands.log_file import LogFileError, read_log
+from typedcan.commands.log_options import add_window_options, need
 from typedcan.commands.tool import Tool, add_protocol_options
-from typedcan.commands.transcript import JSON_HELP, Transcript
+from typedcan.commands.transcript import JSON_HELP
 from typedcan.shell.command_line import Command, completing_files
-from typedcan.shell.console import CommandError, note
 
 
 def command(tool: Tool) -> Command:
@@ -20,22 +19,16 @@ def command(tool: Tool) -> Command:
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:
     file = parser.add_argument(
-        "file",
-        type=Path,
-        metavar="LOGFILE",
-        help="any log that python-can reads: .asc, .blf, .csv, .db, .log, .trc, .mf4, or .asc.gz",
+        "file", type=Path, metavar="LOGFILE", help="a log: .asc, .blf, .csv, .log, .trc, .mf4 …"
     )
     completing_files(file)
     add_protocol_options(parser)
+    add_window_options(parser)
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
 
 
 def _run(tool: Tool, options: argparse.Namespace) -> int:
-    transcript = Transcript(tool.codec(options), as_json=options.json)
-    try:
-        for frame in read_log(options.file):
-            transcript.show(frame)
-    except LogFileError as error:
-        raise CommandError(f"{error}; read: {transcript.summary()}") from None
-    note(transcript.summary())
-    return 0
+    need("numpy")
+    from typedcan.commands.decoding import run
+
+    return run(tool, options)

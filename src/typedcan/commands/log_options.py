@@ -14,9 +14,14 @@ def add_window_options(parser: argparse.ArgumentParser) -> None:
         "--from",
         dest="start",
         metavar="TIME",
-        help="seconds since the log's begin, or a date like 2025-06-30T14:05:00 (local time)",
+        help="seconds since the log's begin, or a date like 2025-06-30T14:05:00 (recorder's time)",
     )
     parser.add_argument("--to", dest="end", metavar="TIME", help="the same")
+    parser.add_argument(
+        "--recorded-in",
+        metavar="ZONE",
+        help="time zone of the recorder, such as Asia/Shanghai or UTC (default: this computer's)",
+    )
 
 
 def need(*packages: str) -> None:

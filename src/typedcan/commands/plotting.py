@@ -8,12 +8,12 @@ from pathlib import Path
 
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool
+from typedcan.logs.part import window_of
 from typedcan.logs.plot import Plot, PlotRequest, find_signals, read_plot, to_html, to_picture
 from typedcan.logs.plot.html import notes
 from typedcan.logs.progress import Progress
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.transfers.readings import Readings
-from typedcan.logs.window import Moment, moment
 from typedcan.model.plain import shown
 from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError, note
@@ -64,8 +64,7 @@ def _request(options: argparse.Namespace, protocol: Protocol) -> PlotRequest:
         protocol,
         signals,
         [_readings(protocol, name) for name in dict.fromkeys(options.readings)],
-        start=_moment(options.start),
-        end=_moment(options.end),
+        window=window_of(options.start, options.end, options.recorded_in),
         algorithms=algorithms_of(options),
     )
 
@@ -76,10 +75,6 @@ def _readings(protocol: Protocol, name: str) -> Readings:
             return each
     known = ", ".join(each.name for each in protocol.readings) or "none"
     raise CommandError(f"there are no readings {shown(name)}; known: {known}")
-
-
-def _moment(text: str | None) -> Moment | None:
-    return None if text is None else moment(text)
 
 
 def _size(path: Path) -> int:

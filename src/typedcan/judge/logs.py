@@ -8,8 +8,7 @@ from pathlib import Path
 
 from typedcan.judge.judge import Judge
 from typedcan.judge.judgement import Judgement
-from typedcan.logs.read import open_log
-from typedcan.logs.window import Moment, within
+from typedcan.logs.part import ALL, LogPart, TimeError, Window
 
 _BLOCK = 1 << 17
 """Frames in a chunk: enough that a message's share of it is worth a call per rule."""
@@ -19,8 +18,7 @@ def judge_log(
     judge: Judge,
     log: Path | str,
     *,
-    start: Moment | None = None,
-    end: Moment | None = None,
+    window: Window = ALL,
     watch: Callable[[int, int], None] | None = None,
 ) -> Judgement:
     """Judge a log of any kind that `typedcan.logs.read.open_log` reads.
@@ -29,7 +27,7 @@ def judge_log(
     ----------
     judge
         A new one, which says whom to judge and by what.
-    start, end
+    window
         The part of the log.
     watch
         Is told, now and then, how many bytes are read, and how many frames.
@@ -39,16 +37,18 @@ def judge_log(
     LogError
         The log cannot be opened. Damage raises nothing: `Judgement.damage` says so.
     TimeError
-        ``start`` or ``end`` do not fit the log.
+        The window does not fit the log.
     """
     path = Path(log)
     frames = 0
-    with open_log(path, _BLOCK) as source:
-        for block in within(source, start, end):
+    with LogPart(path, _BLOCK, window) as source:
+        for block in source:
             judge.feed(block)
             frames += len(block)
             if watch:
                 watch(source.position, frames)
+        if not frames and not window.is_open and source.damage is None and source.spans():
+            raise TimeError(f"{path}: no frame in this part; the log goes from {source.spans()}")
         damage = () if source.damage is None else (str(source.damage),)
     with path.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()

@@ -27,9 +27,10 @@ from typedcan.logs.columns import MessageColumns
 from typedcan.logs.database import protocol_of
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock, FrameFlag
+from typedcan.logs.part import LogPart
 from typedcan.logs.plan import Mode
 from typedcan.logs.protocol import Protocol
-from typedcan.logs.read import BLOCK_SIZE, Damage, open_log
+from typedcan.logs.read import BLOCK_SIZE, Damage
 from typedcan.logs.selection import select
 from typedcan.model.checksums.registry import Given
 from typedcan.model.errors import TypedcanError
@@ -149,7 +150,7 @@ def frame_batches(path: Path | str, rows: int = BLOCK_SIZE) -> Iterator[pa.Recor
     DamagedLogError
         The log is damaged; after all frames before the damage.
     """
-    with open_log(Path(path), rows) as log:
+    with LogPart(Path(path), rows) as log:
         for block in log:
             yield _frame_batch(block)
         if log.damage is not None:

@@ -11,6 +11,8 @@ import pyarrow as pa
 
 from typedcan.logs.database import protocol_of
 from typedcan.logs.parallel import read_many
+from typedcan.logs.part import TimeError
+from typedcan.logs.parts import check_order, parts_of
 from typedcan.logs.pipeline import Layout, Options, Watch, read_rows, schemas_of
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.summary import Summary
@@ -35,7 +37,8 @@ def convert_logs(
     Parameters
     ----------
     logs
-        Their frames follow one another in this order. Each is checked for itself.
+        Parts of one drive. Where all of them say when they begin they are put in that order, else
+        they are in it. Each is checked for itself.
     output
         A name whose suffix says which kind of file; see `typedcan.logs.write.target.target_of`.
     options
@@ -74,6 +77,8 @@ def convert_logs(
         summary = _read(
             logs, protocol, chosen, queue, jobs or os.cpu_count() or 1, watch or _unwatched
         )
+        if summary.outside and summary.begin is None and not summary.damage:
+            raise TimeError(f"no frame in this part; the log goes from {summary.outside}")
     return target, summary
 
 
@@ -83,7 +88,7 @@ def tables(*logs: Path | str, options: Options | None = None, own: Protocol) -> 
     Parameters
     ----------
     logs
-        Their frames follow one another in this order.
+        Parts of one drive, as `convert_logs` takes them.
     options
         What is to be made of the logs.
     own
@@ -110,15 +115,29 @@ def _read(
     jobs: int,
     watch: Watch,
 ) -> Summary:
-    jobs = min(jobs, len(logs))
+    parts = parts_of(logs, options.window)
+    jobs = min(jobs, len(parts))
     if jobs > 1:
-        return read_many(logs, protocol, options, sink, jobs, watch)
+        summary = read_many(parts, protocol, options, sink, jobs, watch)
+    else:
+        summary = _read_one_by_one(parts, protocol, options, sink, watch)
+    check_order(summary.spans)
+    return summary
+
+
+def _read_one_by_one(
+    parts: Sequence[tuple[Path, float]],
+    protocol: Protocol,
+    options: Options,
+    sink: Sink,
+    watch: Watch,
+) -> Summary:
     summary = Summary()
     rows = _Once(sink)
     before = 0
-    for log in logs:
+    for log, later in parts:
         on = partial(_on, watch, before, summary.counts.frames)
-        found = read_rows(log, protocol, options, rows, on)
+        found = read_rows(log, protocol, options, rows, on, later)
         before += log.stat().st_size
         summary.add(found)
     rows.flush()

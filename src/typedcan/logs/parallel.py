@@ -51,7 +51,7 @@ class _Piece(TableFile):
 
 
 def read_many(
-    paths: Sequence[Path],
+    parts: Sequence[tuple[Path, float]],
     protocol: Protocol,
     options: Options,
     sink: Sink,
@@ -60,12 +60,12 @@ def read_many(
 ) -> Summary:
     """Read logs in ``jobs`` processes and write their rows, log after log.
 
-    What is read ahead waits on disk, for ``jobs`` logs at most. Raises as
-    `typedcan.logs.pipeline.read_rows`.
+    A part is a log and how many seconds are added to its times. What is read ahead waits on disk,
+    for ``jobs`` logs at most. Raises as `typedcan.logs.pipeline.read_rows`.
     """
     context = multiprocessing.get_context("spawn")
     # For each log its bytes and frames, and at the end whether to give up.
-    numbers = context.RawArray(c_int64, 2 * len(paths) + 1)
+    numbers = context.RawArray(c_int64, 2 * len(parts) + 1)
     summary = Summary()
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="typedcan-")))
@@ -73,12 +73,12 @@ def read_many(
             ProcessPoolExecutor(jobs, context, initializer=_set_up, initargs=(numbers, protocol))
         )
         pending: deque[tuple[int, Future[Summary]]] = deque()
-        waiting = deque(enumerate(paths))
+        waiting = deque(enumerate(parts))
         try:
             while waiting or pending:
                 while waiting and len(pending) < jobs + 1:
-                    number, path = waiting.popleft()
-                    work = pool.submit(_read_one, number, path, options, folder / str(number))
+                    number, part = waiting.popleft()
+                    work = pool.submit(_read_one, number, part, options, folder / str(number))
                     pending.append((number, work))
                 number, future = pending.popleft()
                 found = _result(future, partial(_tell, numbers, watch))
@@ -98,11 +98,12 @@ def _set_up(numbers: Any, protocol: Protocol) -> None:
     _shared[:] = [numbers, protocol]
 
 
-def _read_one(number: int, path: Path, options: Options, folder: Path) -> Summary:
+def _read_one(number: int, part: tuple[Path, float], options: Options, folder: Path) -> Summary:
     folder.mkdir()
     sink = Files(_Piece, partial(_piece, folder))
     rows = Gathering(sink)
-    summary = read_rows(path, _shared[1], options, rows, partial(_note, number))
+    path, later = part
+    summary = read_rows(path, _shared[1], options, rows, partial(_note, number), later)
     rows.flush()
     sink.close()
     return summary

@@ -17,14 +17,13 @@ from typedcan.logs.checks import Checks
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.long_table import LongTable
+from typedcan.logs.part import ALL, LogPart, Window
 from typedcan.logs.plan import Mode
 from typedcan.logs.protocol import Protocol
 from typedcan.logs.raster import Raster
-from typedcan.logs.read import LogSource, open_log
 from typedcan.logs.selection import select
 from typedcan.logs.shapes import PerMessage, Shape
 from typedcan.logs.summary import Summary
-from typedcan.logs.window import Moment, within
 from typedcan.model.checksums.methods import Algorithm
 from typedcan.model.checksums.registry import Given
 
@@ -54,7 +53,7 @@ class Options:
         A DBC file, or another database; None: the protocol that comes with the options.
     messages, signals
         Names, as `typedcan.logs.selection.select` takes them; none: all.
-    start, end
+    window
         The part of each log.
     mode
         What the columns hold.
@@ -74,8 +73,7 @@ class Options:
     dbc: Path | None = None
     messages: tuple[str, ...] = ()
     signals: tuple[str, ...] = ()
-    start: Moment | None = None
-    end: Moment | None = None
+    window: Window = ALL
     mode: Mode = Mode.PHYSICAL
     layout: Layout = Layout.MESSAGES
     step: Fraction = Fraction(1, 10)
@@ -132,9 +130,14 @@ def schemas_of(protocol: Protocol, options: Options) -> dict[str, pa.Schema]:
 
 
 def read_rows(
-    path: Path, protocol: Protocol, options: Options, rows: Rows, watch: Watch
+    path: Path,
+    protocol: Protocol,
+    options: Options,
+    rows: Rows,
+    watch: Watch,
+    later: float = 0.0,
 ) -> Summary:
-    """Read one log, and hand on the rows of its tables.
+    """Read one log, and hand on the rows of its tables, their times so many seconds later.
 
     Raises
     ------
@@ -155,8 +158,8 @@ def read_rows(
         for table in tables.values():
             summary.renamed.update(table.renamed)
     span = _Span()
-    with open_log(path, _BLOCK) as log:
-        for block in within(_watched(log, watch), options.start, options.end):
+    with LogPart(path, _BLOCK, options.window, later) as log:
+        for block in _watched(log, watch):
             if summary.begin is None:
                 summary.begin = float(block.timestamp[0])
                 rows.begin(summary.begin)
@@ -167,6 +170,11 @@ def read_rows(
                 _hand_on(shape.take(decoded), rows, summary)
         if log.damage is not None:
             summary.damage.append(log.damage)
+        summary.spans.append((path, log.first, log.last))
+        summary.outside = log.spans() if summary.begin is None else ""
+        if log.clock.text:
+            summary.begun.append(f"{path.name} began {log.clock.text}")
+        summary.passed.update(log.source.passed)
     for shape in shapes:
         _hand_on(shape.finish(), rows, summary)
         summary.add_problems(shape.problems)
@@ -176,7 +184,7 @@ def read_rows(
     return summary
 
 
-def _watched(log: LogSource, watch: Watch) -> Iterator[FrameBlock]:
+def _watched(log: LogPart, watch: Watch) -> Iterator[FrameBlock]:
     frames = 0
     for block in log:
         yield block

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from typedcan.logs.checks import Faults
@@ -54,8 +55,19 @@ class Summary:
         Signals whose column has another name, ``message.signal``, and that name.
     problems
         What was wrong with transfers, by their names, and how often.
+<<<<<<< HEAD
     taken_together
         The source addresses of messages, found by their PGN, in one column of a raster.
+=======
+    spans
+        Each log, with the times of its first and its last frame; NaN where there is none.
+    begun
+        When the logs say that they began, a line each.
+    outside
+        Where no frame is in the part that is wanted: from when to when the log goes.
+    passed
+        What in the files is no frame on the bus, and was passed over.
+>>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
     """
 
     logs: int = 0
@@ -71,7 +83,14 @@ class Summary:
     problems: dict[str, Counter[ProblemKind]] = field(
         default_factory=dict[str, Counter[ProblemKind]]
     )
+<<<<<<< HEAD
     taken_together: dict[str, frozenset[int]] = field(default_factory=dict[str, frozenset[int]])
+=======
+    spans: list[tuple[Path, float, float]] = field(default_factory=list[tuple[Path, float, float]])
+    begun: list[str] = field(default_factory=list[str])
+    outside: str = ""
+    passed: Counter[str] = field(default_factory=Counter[str])
+>>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -86,12 +105,19 @@ class Summary:
         self.in_several_frames = other.in_several_frames
         self.renamed |= other.renamed
         self.add_problems(other.problems)
+<<<<<<< HEAD
         self.add_sources(other.taken_together)
 
     def add_sources(self, found: Mapping[str, frozenset[int]]) -> None:
         """Add the sources that are in one column."""
         for name, sources in found.items():
             self.taken_together[name] = self.taken_together.get(name, sources) | sources
+=======
+        self.spans += other.spans
+        self.begun += other.begun
+        self.outside = self.outside or other.outside
+        self.passed.update(other.passed)
+>>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
 
     def add_problems(self, found: Mapping[str, Counter[ProblemKind]]) -> None:
         """Add what was wrong with transfers."""
@@ -106,8 +132,6 @@ class Summary:
         others = {"not asked for": counts.unwanted, "remote": counts.remote, "error": counts.error}
         if any(others.values()):
             yield ", ".join(f"{many:,} {what}" for what, many in others.items() if many)
-        if counts.unknown:
-            yield f"unknown identifiers: {_listed(_identifiers(counts))}"
         for title, found in self._troubles():
             if found:
                 yield f"{title}: {_listed(found)}"
@@ -125,6 +149,7 @@ class Summary:
             yield f"in several frames, not decoded: {_names(self.in_several_frames)}"
         for name, column in self.renamed.items():
             yield f"{name} is in the column {column}"
+<<<<<<< HEAD
         for name, sources in self._mixed().items():
             yield f"{name} is sampled from several sources: {_names(sources)}"
 
@@ -135,9 +160,18 @@ class Summary:
             for name, sources in self.taken_together.items()
             if len(sources) > 1
         }
+=======
+        for name, gaps in sorted(faults.gaps.items()):
+            yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
+        yield from self.begun[:_MOST]
+        for damage in self.damage:
+            yield str(damage)
+>>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
 
     def _troubles(self) -> Iterator[tuple[str, Counter[str]]]:
         """What was wrong, and how often with each message or transfer."""
+        yield "no frames on the bus", self.passed
+        yield "unknown identifiers", _identifiers(self.counts)
         yield "wrong length", self.faults.length
         yield "wrong checksum", self.faults.checksum
         yield "wrong counter", self.faults.counter
@@ -181,7 +215,12 @@ class Summary:
             "hidden": self.hidden,
             "in_several_frames": list(self.in_several_frames),
             "renamed": self.renamed,
+<<<<<<< HEAD
             "several_sources": self._mixed(),
+=======
+            "begun": self.begun,
+            "passed_over": dict(self.passed),
+>>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
             "transfers": {name: dict(kinds) for name, kinds in self.problems.items()},
         }
 

@@ -12,15 +12,14 @@ from typedcan.logs.checks import Checks, taken
 from typedcan.logs.columns import MessageColumns, SignalInfo
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
+from typedcan.logs.part import ALL, LogPart, TimeError, Window
 from typedcan.logs.plan import Mode, SelectionError
 from typedcan.logs.plot.heat import HeatMap
 from typedcan.logs.plot.model import Band, Curve, Heat, Plot
 from typedcan.logs.plot.names import SignalName
 from typedcan.logs.plot.track import Track
 from typedcan.logs.protocol import Protocol
-from typedcan.logs.read import LogSource, open_log
 from typedcan.logs.transfers import CycleCounts, CycleTable, ReadingColumns, Readings
-from typedcan.logs.window import Moment, within
 from typedcan.model.checksums.methods import Algorithm
 from typedcan.model.checksums.registry import Given
 from typedcan.shell.printing import printable
@@ -46,8 +45,8 @@ class PlotRequest:
         Names of messages and signals.
     readings
         What is shown as heat maps.
-    start, end
-        The part of the log, None: from the first frame, to the last.
+    window
+        The part of the log.
     algorithms
         What computes checksums that are not known here, as `typedcan.wire.codec.Codec` has it.
     """
@@ -55,8 +54,7 @@ class PlotRequest:
     protocol: Protocol
     signals: Sequence[SignalName] = ()
     readings: Sequence[Readings] = ()
-    start: Moment | None = None
-    end: Moment | None = None
+    window: Window = ALL
     algorithms: Given = field(default_factory=dict[str, Algorithm | str])
 
 
@@ -89,13 +87,14 @@ def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> P
     checks = Checks(protocol, algorithms=request.algorithms)
     clock = _Clock()
     collection = _Collection(request, clock)
-    with open_log(path) as log:
-        blocks = clock.watched(log, watch)
-        for block in within(blocks, request.start, request.end):
+    with LogPart(path, window=request.window) as log:
+        for block in clock.watched(log, watch):
             clock.shown(block)
             collection.add(checks.take(decoder.decode(block)).messages)
         faults = checks.finish()
         damage = log.damage
+        if not clock.is_shown and not request.window.is_open and damage is None and log.spans():
+            raise TimeError(f"{path}: no frame in this part; the log goes from {log.spans()}")
     curves, bands, heats = collection.finish()
     return Plot(
         title=printable(path.name),
@@ -132,14 +131,14 @@ class _Clock:
         self.origin = 0.0
         self.start = 0.0
         self.end = 0.0
-        self._begun = self._is_shown = False
+        self._begun = self.is_shown = False
 
-    def watched(self, log: LogSource, watch: Watch | None) -> Iterator[FrameBlock]:
+    def watched(self, log: LogPart, watch: Watch | None) -> Iterator[FrameBlock]:
         """The blocks of the log; notes when it begins, and says how far it is."""
         frames = 0
         for block in log:
             if not self._begun:
-                self.origin = float(block.timestamp[0])
+                self.origin = log.first
                 self._begun = True
             yield block
             frames += len(block)
@@ -149,9 +148,9 @@ class _Clock:
     def shown(self, block: FrameBlock) -> None:
         """Note that these frames are shown."""
         first, last = float(block.timestamp.min()), float(block.timestamp.max())
-        if not self._is_shown:
+        if not self.is_shown:
             self.start, self.end = first - self.origin, last - self.origin
-            self._is_shown = True
+            self.is_shown = True
         self.start = min(self.start, first - self.origin)
         self.end = max(self.end, last - self.origin)
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 from typing import Protocol, Self
@@ -45,6 +47,25 @@ class Damage:
         return f"{self.path}: damaged at {self.where}: {self.problem}; lost: {self.lost}"
 
 
+@dataclass(frozen=True, slots=True)
+class Start:
+    """When a log says that it began.
+
+    Parameters
+    ----------
+    wall
+        Date and time as the file has them, without a zone.
+    is_utc
+        What wrote the file is known to write UTC; else it is the clock of the recorder.
+    counted
+        The times of the frames count from it; else they are seconds since 1970, as if it were UTC.
+    """
+
+    wall: datetime
+    is_utc: bool
+    counted: bool
+
+
 class LogSource(Protocol):
     """A log that is open: iterate once over its blocks, then look at ``damage``."""
 
@@ -52,6 +73,14 @@ class LogSource(Protocol):
 
     damage: Damage | None
     """None until the iteration came upon damage, which never is an exception."""
+
+    start: Start | None = None
+    """When the log says that it began; known with its first block."""
+
+    @property
+    def passed(self) -> Counter[str]:
+        """What in the file is no frame on the bus, by kind, such as ``transmit requests``."""
+        return Counter()
 
     @property
     def size(self) -> int:
