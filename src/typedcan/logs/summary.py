@@ -55,10 +55,8 @@ class Summary:
         Signals whose column has another name, ``message.signal``, and that name.
     problems
         What was wrong with transfers, by their names, and how often.
-<<<<<<< HEAD
     taken_together
         The source addresses of messages, found by their PGN, in one column of a raster.
-=======
     spans
         Each log, with the times of its first and its last frame; NaN where there is none.
     begun
@@ -67,7 +65,6 @@ class Summary:
         Where no frame is in the part that is wanted: from when to when the log goes.
     passed
         What in the files is no frame on the bus, and was passed over.
->>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
     """
 
     logs: int = 0
@@ -83,14 +80,11 @@ class Summary:
     problems: dict[str, Counter[ProblemKind]] = field(
         default_factory=dict[str, Counter[ProblemKind]]
     )
-<<<<<<< HEAD
     taken_together: dict[str, frozenset[int]] = field(default_factory=dict[str, frozenset[int]])
-=======
     spans: list[tuple[Path, float, float]] = field(default_factory=list[tuple[Path, float, float]])
     begun: list[str] = field(default_factory=list[str])
     outside: str = ""
     passed: Counter[str] = field(default_factory=Counter[str])
->>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
 
     def add(self, other: Summary) -> None:
         """Add what was found in the logs that follow."""
@@ -105,19 +99,16 @@ class Summary:
         self.in_several_frames = other.in_several_frames
         self.renamed |= other.renamed
         self.add_problems(other.problems)
-<<<<<<< HEAD
         self.add_sources(other.taken_together)
+        self.spans += other.spans
+        self.begun += other.begun
+        self.outside = self.outside or other.outside
+        self.passed.update(other.passed)
 
     def add_sources(self, found: Mapping[str, frozenset[int]]) -> None:
         """Add the sources that are in one column."""
         for name, sources in found.items():
             self.taken_together[name] = self.taken_together.get(name, sources) | sources
-=======
-        self.spans += other.spans
-        self.begun += other.begun
-        self.outside = self.outside or other.outside
-        self.passed.update(other.passed)
->>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
 
     def add_problems(self, found: Mapping[str, Counter[ProblemKind]]) -> None:
         """Add what was wrong with transfers."""
@@ -149,9 +140,9 @@ class Summary:
             yield f"in several frames, not decoded: {_names(self.in_several_frames)}"
         for name, column in self.renamed.items():
             yield f"{name} is in the column {column}"
-<<<<<<< HEAD
         for name, sources in self._mixed().items():
             yield f"{name} is sampled from several sources: {_names(sources)}"
+        yield from self.begun[:_MOST]
 
     def _mixed(self) -> dict[str, list[str]]:
         """The sources of what comes from several, and is in one column."""
@@ -160,13 +151,6 @@ class Summary:
             for name, sources in self.taken_together.items()
             if len(sources) > 1
         }
-=======
-        for name, gaps in sorted(faults.gaps.items()):
-            yield f"gaps: {name} {gaps.count:,}, the longest {gaps.longest:,.3g} s"
-        yield from self.begun[:_MOST]
-        for damage in self.damage:
-            yield str(damage)
->>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
 
     def _troubles(self) -> Iterator[tuple[str, Counter[str]]]:
         """What was wrong, and how often with each message or transfer."""
@@ -215,12 +199,9 @@ class Summary:
             "hidden": self.hidden,
             "in_several_frames": list(self.in_several_frames),
             "renamed": self.renamed,
-<<<<<<< HEAD
             "several_sources": self._mixed(),
-=======
             "begun": self.begun,
             "passed_over": dict(self.passed),
->>>>>>> b36012b (Every command reads a log through one way in: parts, windows, the recorder's time zone, parts of one drive in order)
             "transfers": {name: dict(kinds) for name, kinds in self.problems.items()},
         }
 
