@@ -124,6 +124,11 @@ async def node(node: Node, received: Received[B2V_ST2]) -> None:
         if isinstance(event, PackCode):
             assert_type(event, PackCode)
         event.soc  # wrong
+    async for status_only in node.events(B2V_ST2, limit=10):
+        assert_type(status_only.message.soc, Number)
+    async for change in node.events(StateChanged):
+        assert_type(change, StateChanged)
+        change.message.soc  # wrong
 """
 README = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 

@@ -103,6 +103,42 @@ def test_a_slow_reader_gets_the_latest_events_and_is_told_what_it_missed(
     assert data == [7, 8, 9, 99]
 
 
+def test_a_stream_of_a_message_has_nothing_else(near: can.BusABC, far: can.BusABC) -> None:
+    async def scenario() -> None:
+        bench = Bench()
+        vcu = bench.node("VCU", far, expect=[])
+        vcu.turn()
+        messages, changes = vcu.events(B2V_ST2), vcu.events(StateChanged)
+        near.send(can.Message(arbitration_id=B2V_ST1.FRAME_ID, data=bytes(7)))  # refused
+        near.send(st2(99))
+        near.send(can.Message(arbitration_id=B2V_ST1.FRAME_ID, data=bytes(8)))
+        near.send(st2(100))
+        bench.turn()
+        vcu.stop()
+        assert [received.frame.data[0] async for received in messages] == [99, 100]
+        assert [change.message async for change in changes] == [B2V_ST2, B2V_ST1]
+
+    asyncio.run(scenario())
+
+
+def test_what_a_slow_reader_of_one_message_misses_is_logged(
+    near: can.BusABC, far: can.BusABC, caplog: pytest.LogCaptureFixture
+) -> None:
+    async def scenario() -> None:
+        bench = Bench()
+        vcu = bench.node("VCU", far, expect=[])
+        vcu.turn()
+        messages = vcu.events(B2V_ST2, limit=2)
+        for soc in range(5):
+            near.send(st2(soc))
+        bench.turn()
+        assert [(await anext(messages)).frame.data[0] for _ in range(2)] == [3, 4]
+        await messages.aclose()
+
+    asyncio.run(scenario())
+    assert [each.getMessage() for each in caplog.records] == ["B2V_ST2: 3 events dropped"]
+
+
 def test_two_readers_see_the_same_and_one_that_leaves_does_not_end_the_other(
     near: can.BusABC, far: can.BusABC
 ) -> None:

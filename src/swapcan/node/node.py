@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
+from typing import Any, overload
 
 import can
 
@@ -13,9 +14,11 @@ from typedcan.node import node
 from typedcan.node.answers import TransferCollector
 from typedcan.node.clock import Clock
 from typedcan.node.engine import Leave
+from typedcan.node.node import EventT
 from typedcan.node.request import Pending
 from typedcan.wire.codec import Codec
-from typedcan.wire.message import Message
+from typedcan.wire.link import Received
+from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protocol import Protocol
 
 
@@ -55,13 +58,21 @@ class Node(node.Node):
             transfers=Transfers(protocol),
         )
 
-    def events(self, limit: int = 10_000) -> AsyncGenerator[Event, None]:
-        """All events from now on, for ``async for``, until the node is stopped.
-
-        At most ``limit`` wait for a slow reader; then the oldest are dropped, and an `Overrun`
-        says how many. Must be called on an event loop.
-        """
-        return super().events(limit)
+    @overload
+    def events(
+        self, kind: type[MessageT], *, limit: int = 10_000
+    ) -> AsyncGenerator[Received[MessageT], None]: ...
+    @overload
+    def events(
+        self, kind: type[EventT], *, limit: int = 10_000
+    ) -> AsyncGenerator[EventT, None]: ...
+    @overload
+    def events(self, *, limit: int = 10_000) -> AsyncGenerator[Event, None]: ...
+    def events(
+        self, kind: type[Any] | None = None, *, limit: int = 10_000
+    ) -> AsyncGenerator[Any, None]:
+        """Events from now on, as `typedcan.node.node.Node` has them."""
+        return super().events(limit=limit) if kind is None else super().events(kind, limit=limit)
 
     def request_vin(self, timeout: float = 5.0, *, again: float = 1.0) -> Pending[Vin]:
         """Ask for the VIN of the vehicle.

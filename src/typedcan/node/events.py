@@ -110,15 +110,17 @@ Event = (
 class Stream:
     """Events on their way from a thread to one reader on an event loop.
 
-    Must be made on that loop. No more than ``limit`` wait; the oldest make room.
+    Must be made on that loop. No more than ``limit`` wait; the oldest make room. With a ``kind``
+    they are those of that class, or of that message class; then it is logged where one is dropped.
     """
 
-    def __init__(self, limit: int) -> None:
+    def __init__(self, limit: int, kind: type | None = None) -> None:
         try:
             self._loop = asyncio.get_running_loop()
         except RuntimeError:
             raise RuntimeError("events() is called outside of an event loop") from None
         self._limit = limit
+        self.kind = kind
         self._events: deque[Any] = deque()
         self._dropped = 0
         self._lock = threading.Lock()
@@ -153,7 +155,9 @@ class Stream:
                 events, self._events = self._events, deque()
                 dropped, self._dropped = self._dropped, 0
                 self._woken = False
-            if dropped:
+            if dropped and self.kind:
+                _LOG.warning("%s: %s", self.kind.__name__, Overrun(dropped))
+            elif dropped:
                 yield Overrun(dropped)
             for event in events:
                 if event is _END:
@@ -162,7 +166,7 @@ class Stream:
 
 
 class Dispatcher:
-    """Who wants to know what: callbacks by the kind of event, and streams of all events."""
+    """Who wants to know what: callbacks by the kind of event, and streams of all or of a kind."""
 
     def __init__(self) -> None:
         self._callbacks: dict[type | None, tuple[Callable[[Any], object], ...]] = {}
@@ -200,13 +204,14 @@ class Dispatcher:
             except BaseException as error:  # noqa: BLE001 - the others are told first
                 failure = failure or error
         for stream in self._streams:
-            stream.put(event)
+            if stream.kind in (None, type(event), kind):
+                stream.put(event)
         if failure:
             raise failure
 
-    def stream(self, limit: int) -> AsyncGenerator[Any, None]:
-        """All events from now on, until `end_streams`; must be called on an event loop."""
-        stream = Stream(limit)
+    def stream(self, limit: int, kind: type | None = None) -> AsyncGenerator[Any, None]:
+        """Events from now on, until `end_streams`; must be called on an event loop."""
+        stream = Stream(limit, kind)
         with self._lock:
             self._streams = (*self._streams, stream)
         return self._read(stream)

@@ -186,13 +186,27 @@ class Node(Running):
         """
         return self._engine.dispatcher.on(kind, callback)
 
-    def events(self, limit: int = 10_000) -> AsyncGenerator[Any, None]:
-        """All events from now on, for ``async for``, until the node is stopped.
+    @overload
+    def events(
+        self, kind: type[MessageT], *, limit: int = 10_000
+    ) -> AsyncGenerator[Received[MessageT], None]: ...
+    @overload
+    def events(
+        self, kind: type[EventT], *, limit: int = 10_000
+    ) -> AsyncGenerator[EventT, None]: ...
+    @overload
+    def events(self, *, limit: int = 10_000) -> AsyncGenerator[Any, None]: ...
+    def events(
+        self, kind: type[Any] | None = None, *, limit: int = 10_000
+    ) -> AsyncGenerator[Any, None]:
+        """Events from now on, for ``async for``, until the node is stopped.
 
-        At most ``limit`` wait for a slow reader; then the oldest are dropped, and an `Overrun`
-        says how many. Must be called on an event loop.
+        All of them, or each `Received` of a message class, or each event of a class, as `on` has
+        them. At most ``limit`` wait for a slow reader; then the oldest are dropped, and an
+        `Overrun` says how many, or a warning of the log where only one class is asked for. Must be
+        called on an event loop.
         """
-        return self._engine.dispatcher.stream(limit)
+        return self._engine.dispatcher.stream(limit, kind)
 
     def last(self, kind: type[MessageT]) -> Received[MessageT] | None:
         """The message of a kind that came last, if any."""
