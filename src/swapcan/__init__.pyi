@@ -28,6 +28,7 @@ from swapcan.transfer import (
 from swapcan.wire import (
     Codec as Codec,
     Link as Link,
+    codec_for as codec_for,
     dbc_text as dbc_text,
     decode as decode,
     encode as encode,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from importlib import resources
 from typing import Any, overload
 
@@ -47,7 +47,11 @@ class Codec(codec.Codec):
 
 
 class Link(link.Link):
-    """One node's typed messages of the standard; see `typedcan.wire.link.Link`."""
+    """One node's typed messages of the standard; see `typedcan.wire.link.Link`.
+
+    ``edition`` and ``readings`` choose what is spoken on the bus where no codec is given, as
+    `codec_for` has them.
+    """
 
     def __init__(
         self,
@@ -55,8 +59,10 @@ class Link(link.Link):
         *,
         codec: codec.Codec | None = None,
         on_fault: Callable[[receiver.Fault], None] | None = None,
+        edition: str = "",
+        readings: Iterable[str] = (),
     ) -> None:
-        super().__init__(bus, codec or _CODEC, on_fault=on_fault)
+        super().__init__(bus, codec or codec_for(edition, readings), on_fault=on_fault)
 
 
 class Receiver(receiver.Receiver):
@@ -67,6 +73,23 @@ class Receiver(receiver.Receiver):
 
 
 _CODEC = Codec()
+
+
+def codec_for(
+    edition: str = "", readings: Iterable[str] = (), algorithms: Given | None = None
+) -> codec.Codec:
+    """What speaks the standard in an edition and readings, with the classes of `swapcan.messages`.
+
+    ``codec_for("v4.6")`` speaks as the trucks of that edition do, ``codec_for(readings=["E50b"])``
+    takes one erratum in another way; see `typedcan.spoken.codec.SpokenCodec`. Raises `ReadError`
+    for a name that there is not, and as `Codec`.
+    """
+    names = (*([edition] if edition else []), *readings)
+    if not names:
+        return Codec(algorithms) if algorithms else _CODEC
+    from typedcan.spoken.codec import SpokenCodec  # where nothing is chosen nothing of it is read
+
+    return SpokenCodec(PROTOCOL, names, algorithms)
 
 
 def encode(message: Message, *, counter: int | None = None) -> bytes:

@@ -9,7 +9,8 @@ import can
 
 from swapcan.messages import V2B_VIN, B2V_BattInfo1, B2V_SysCode1
 from swapcan.node.answers import BatteryInfo, BatteryInfoCollector, Event
-from swapcan.transfer import PackCode, PackCodeAssembler, Transfers, Vin, VinAssembler
+from swapcan.transfer import PackCode, Transfers, Vin
+from swapcan.transfer.text import PACK_CODE, VIN
 from typedcan.node import node
 from typedcan.node.answers import TransferCollector
 from typedcan.node.clock import Clock
@@ -55,7 +56,7 @@ class Node(node.Node):
             timeouts=timeouts,
             reopen=reopen,
             leave=leave,
-            transfers=Transfers(protocol),
+            transfers=Transfers(codec.protocol if codec else protocol),
         )
 
     @overload
@@ -82,14 +83,16 @@ class Node(node.Node):
         stay as they were last. Raises `RequestError` where this node has no such request, or has
         it under way.
         """
-        return self.ask("VIN", V2B_VIN, TransferCollector(VinAssembler()), timeout, again)
+        return self.ask(
+            "VIN", V2B_VIN, TransferCollector(self._transfers.assembler(VIN.name)), timeout, again
+        )
 
     def request_pack_code(self, timeout: float = 5.0, *, again: float = 1.0) -> Pending[PackCode]:
         """Ask for the code of the pack; see `request_vin`.
 
         The pack sends it every second, and it counts once it has come twice the same.
         """
-        collector = TransferCollector(PackCodeAssembler())
+        collector = TransferCollector(self._transfers.assembler(PACK_CODE.name))
         return self.ask("pack code", B2V_SysCode1, collector, timeout, again)
 
     def request_battery_info(

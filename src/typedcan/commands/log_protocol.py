@@ -11,5 +11,5 @@ from typedcan.logs.protocol import Protocol, known
 
 def log_protocol(tool: Tool, options: argparse.Namespace) -> Protocol:
     """The protocol that the options choose; see `Tool.protocol`."""
-    own = tool.own(options)
+    own = tool.own_protocol(options)
     return protocol_of(dbc_of(options), known(own.model) if own else None)

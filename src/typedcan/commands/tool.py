@@ -10,6 +10,7 @@ from pathlib import Path
 from typedcan.dynamic import typed_protocol
 from typedcan.model import protocol as model
 from typedcan.model.transfers.readings import ReadingsByGroup
+from typedcan.model.variants import choose
 from typedcan.monitor.glance import Glance
 from typedcan.shell.algorithms import add_algorithm_option, algorithms_of
 from typedcan.shell.command_line import Command, completing_files
@@ -60,7 +61,7 @@ class Tool:
         That of the database where one is given: one made from the own protocol says the same in
         other words, such as Chinese labels, and all else that is known of it counts too.
         """
-        own = self.own(options)
+        own = self.own_protocol(options)
         path = dbc_of(options)
         if path is None:
             if own is None:
@@ -72,6 +73,19 @@ class Tool:
         if own and found.made_from == own.digest:
             return typed_protocol(_in_words_of(found, own.model))
         return typed_protocol(found)
+
+    def own_protocol(self, options: argparse.Namespace) -> Protocol | None:
+        """The own protocol in the readings and the edition that the options choose.
+
+        Raises `CommandError` where a database is to say all, and `ReadError` as `choose`.
+        """
+        names, own = chosen(options), self.own(options)
+        if not names:
+            return own
+        if dbc_of(options) or own is None:
+            option = "--edition" if options.edition else "--reading"
+            raise CommandError(f"{option} chooses in a package: a database is in one reading")
+        return typed_protocol(chosen_model(own.model, options))
 
     def codec(self, options: argparse.Namespace) -> Codec:
         """What encodes and decodes the messages of that protocol."""
@@ -93,8 +107,44 @@ def dbc_of(options: argparse.Namespace) -> Path | None:
     return path
 
 
+def add_choice_options(parser: argparse._ActionsContainer) -> None:
+    """Add --reading and --edition."""
+    parser.add_argument(
+        "--reading",
+        dest="readings",
+        action="append",
+        default=[],
+        metavar="ID",
+        help="read a place of the standard in another way that its errata list, as in E50b; may be"
+        " given several times",
+    )
+    parser.add_argument(
+        "--edition",
+        metavar="NAME",
+        help="the protocol as an edition has it that its spec describes, such as a maker's",
+    )
+
+
+def chosen(options: argparse.Namespace) -> tuple[str, ...]:
+    """The edition and the readings that the options name, as `choose` takes them."""
+    return (*([options.edition] if options.edition else []), *options.readings)
+
+
+def chosen_model(own: model.Protocol, options: argparse.Namespace) -> model.Protocol:
+    """The protocol in what the options choose; raises `CommandError`, and `ReadError`."""
+    protocol = choose(own, chosen(options))
+    editions = {each.name for each in own.variants if each.is_edition}
+    for name in options.readings:
+        if name in editions:
+            raise CommandError(f"{name} is an edition, not a reading: --edition {name} chooses it")
+    if options.edition and options.edition not in editions:
+        name = options.edition
+        raise CommandError(f"{name} is a reading, not an edition: --reading {name} chooses it")
+    return protocol
+
+
 def add_protocol_options(parser: argparse._ActionsContainer) -> None:
-    """Add --dbc and --algorithm."""
+    """Add --dbc, --reading, --edition and --algorithm."""
     completing_files(
         parser.add_argument(
             "--dbc",
@@ -105,6 +155,7 @@ def add_protocol_options(parser: argparse._ActionsContainer) -> None:
             help="go by this database: .dbc, .kcd, .sym or .arxml",
         )
     )
+    add_choice_options(parser)
     add_algorithm_option(parser)
 
 

@@ -57,7 +57,7 @@ def choose(protocol: Protocol, names: Iterable[str]) -> Protocol:
             made[path] = each.name, value
             _apply(facts, path.split("/"), new)
     numbers = [erratum.id for erratum in protocol.errata]
-    facts[_MARKS].sort(key=lambda each: _place(numbers, erratum_of(protocol, each["id"])))
+    facts.get(_MARKS, []).sort(key=lambda each: _place(numbers, erratum_of(protocol, each["id"])))
     facts["chosen"] = "+".join(chosen)
     return from_plain(facts, f"{protocol.name} {facts['chosen']}")
 

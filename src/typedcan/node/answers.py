@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, Protocol, TypeVar
 
+from typedcan.spoken.words import Same
 from typedcan.transfer import Assembler, Problem
 from typedcan.wire.message import Message, MessageT
 
@@ -57,3 +58,21 @@ class TransferCollector(Generic[T]):
         """What still lacks, and what was wrong last."""
         missing = self._assembler.missing()
         return f"{missing} ({self._problem.text})" if self._problem else missing
+
+
+def heard(collector: Collector[T], words: Same) -> Collector[T]:
+    """A collector that takes messages as they are spoken; transfers are put together as such."""
+    return collector if isinstance(collector, TransferCollector) else _Heard(collector, words)
+
+
+class _Heard(Generic[T]):
+    """Hands messages on to a collector, as the program has them."""
+
+    def __init__(self, collector: Collector[T], words: Same) -> None:
+        self._collector = collector
+        self._words = words
+        self.missing = collector.missing
+
+    def take(self, message: Message, at: float) -> T | None:
+        """Take a message of the answer; the answer once it is complete."""
+        return self._collector.take(self._words.heard(message), at)

@@ -8,13 +8,15 @@ from typing import Any, TypeVar, overload
 import can
 
 from typedcan.model.j1939 import address_in
-from typedcan.node.answers import Collector, MessageCollector, TransferCollector
+from typedcan.node.answers import Collector, MessageCollector, TransferCollector, heard
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.cycles import Maker
 from typedcan.node.engine import Engine, Leave
 from typedcan.node.errors import RequestError
 from typedcan.node.request import Pending
 from typedcan.node.running import Running
+from typedcan.spoken.codec import SpokenCodec
+from typedcan.spoken.words import Same
 from typedcan.supervise import State, Supervisor
 from typedcan.supervise.snapshot import Snapshot
 from typedcan.transfer import Transfers
@@ -53,7 +55,7 @@ class Node(Running):
     bus
         Is lent: it is never closed here.
     codec
-        For checksum algorithms of one's own.
+        For checksum algorithms of one's own, or to speak an edition: a `SpokenCodec`.
     clock
         What the time is; the system's clock if none is given.
     expect, timeout_periods, late_periods, timeouts
@@ -93,13 +95,19 @@ class Node(Running):
         self.protocol = protocol
         self.name = name
         self.clock: Clock = clock or SystemClock()
+        codec = codec or Codec(protocol)
+        self._words = Same()
+        if isinstance(codec, SpokenCodec):  # all within goes by what is on the bus
+            self._words, codec, protocol = codec.words, codec.bare, codec.protocol
+        self._requests = protocol.requests
+        kind = self._words.kind
         supervisor = Supervisor(
             protocol,
             name,
-            expect=expect,
+            expect=None if expect is None else [*map(kind, expect)],
             timeout_periods=timeout_periods,
             late_periods=late_periods,
-            timeouts=timeouts,
+            timeouts={kind(each): seconds for each, seconds in (timeouts or {}).items()},
             # Frames have the system's time, which means nothing to any other clock.
             timestamps=isinstance(self.clock, SystemClock),
         )
@@ -109,7 +117,7 @@ class Node(Running):
             protocol,
             name,
             bus,
-            codec=codec or Codec(protocol),
+            codec=codec,
             clock=self.clock,
             supervisor=supervisor,
             reopen=reopen,
@@ -132,7 +140,7 @@ class Node(Running):
         a message that is not this node's, or once the node sends no more, and `EncodeError`; then
         nothing is set.
         """
-        self._outbox.set(messages, period)
+        self._outbox.set([*map(self._words.said, messages)], period)
 
     def supply(self, kind: type[Message], make: Maker, *, period: float | None = None) -> None:
         """Send a message cyclically; ``make`` is asked for the frames of each cycle anew.
@@ -140,7 +148,7 @@ class Node(Running):
         It is called in the thread that sends. What it raises, or returns that cannot be sent, is
         reported as `SendFailed`.
         """
-        self._outbox.supply(kind, make, period)
+        self._outbox.supply(self._words.kind(kind), self._words.making(make), period)
 
     def provide(self, *messages: Message) -> None:
         """Have messages ready as answers.
@@ -148,23 +156,23 @@ class Node(Running):
         They are sent while another node's request asks for them, with their period, or once for
         each request where they have none.
         """
-        self._outbox.provide(messages)
+        self._outbox.provide([*map(self._words.said, messages)])
 
     def provide_from(self, kind: type[Message], make: Maker) -> None:
         """As `provide`, but ``make`` is asked for the frames anew each time."""
-        self._outbox.provide_from(kind, make)
+        self._outbox.provide_from(self._words.kind(kind), self._words.making(make))
 
     def clear(self, *kinds: type[Message]) -> None:
         """Send messages no more: neither in cycles, nor as answers, nor those still waiting."""
-        self._outbox.clear(kinds)
+        self._outbox.clear(map(self._words.kind, kinds))
 
     def send(self, message: Message) -> None:
         """Send one frame, now; raises `SendingError`, `EncodeError` and what the bus raises."""
-        self._outbox.send(message)
+        self._outbox.send(self._words.said(message))
 
     def postpone(self, kind: type[Message], seconds: float) -> None:
         """Let the next frame of a cyclic message come late; those after it keep their times."""
-        self._outbox.postpone(kind, seconds)
+        self._outbox.postpone(self._words.kind(kind), seconds)
 
     # Receiving
 
@@ -184,7 +192,7 @@ class Node(Running):
         what takes the callback off. An exception of a callback is logged, by "typedcan", and stops
         nothing; what is no `Exception`, such as `SystemExit`, ends the node.
         """
-        return self._engine.dispatcher.on(kind, callback)
+        return self._engine.dispatcher.on(*self._words.listening(kind, callback))
 
     @overload
     def events(
@@ -206,16 +214,17 @@ class Node(Running):
         `Overrun` says how many, or a warning of the log where only one class is asked for. Must be
         called on an event loop.
         """
-        return self._engine.dispatcher.stream(limit, kind)
+        stream = self._engine.dispatcher.stream(limit, self._words.wanted(kind))
+        return self._words.stream(stream)
 
     def last(self, kind: type[MessageT]) -> Received[MessageT] | None:
         """The message of a kind that came last, if any."""
-        received: Received[Any] | None = self._inbox.last(kind)
-        return received
+        received: Received[Any] | None = self._inbox.last(self._words.kind(kind))
+        return self._words.received(received) if received else None
 
     def state(self, kind: type[Message]) -> State:
         """How regularly a message comes in."""
-        return self._inbox.state(kind)
+        return self._inbox.state(self._words.kind(kind))
 
     def snapshot(self) -> Snapshot:
         """What supervision knows at this moment."""
@@ -281,7 +290,8 @@ class Node(Running):
         ``answer`` is a message of it, and ``name`` what it is for people.
         """
         self._outbox.check_open()
-        for request in self.protocol.requests:
+        answer, collector = self._words.kind(answer), heard(collector, self._words)
+        for request in self._requests:
             if answer in request.answers and self.name in request.field.message.MODEL.senders:
                 return self._engine.requests.begin(
                     name, request, collector, timeout=timeout, again=again, now=self.clock.now()

@@ -104,6 +104,15 @@ class Codec:
             raise UnknownMessageError(f"{name} is no message class of {self.protocol.name}")
         return reader
 
+    @property
+    def bare(self) -> Codec:
+        """What encodes and decodes the classes of what is spoken, where those are others."""
+        return self
+
+    def said(self, message: Message) -> Message:
+        """The message in the class of what is spoken: itself, where nothing else was chosen."""
+        return message
+
     def encode(
         self,
         message: Message,

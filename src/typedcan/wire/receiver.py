@@ -177,7 +177,7 @@ class Receiver:
         received.faults = ()
         if reader.counter:
             counter = reader.counter(data)
-            problem = self._counters.problem(reader.kind, counter, frame.arbitration_id)
+            problem = self._counters.problem(reader.entry.type, counter, frame.arbitration_id)
             if problem is not None:
                 fault = self._fault("counter", reader, problem.text, frame, problem.kind)
                 received.faults = (fault,)
