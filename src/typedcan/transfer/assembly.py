@@ -167,8 +167,11 @@ class Transfers:
 
         ``at`` is the time in seconds.
         """
+        assemblers = self._routes.get(type(message), ())
+        if len(assemblers) == 1:  # as nearly always
+            return assemblers[0].take(message, at)
         outcomes: tuple[Any, ...] = ()
-        for assembler in self._routes.get(type(message), ()):
+        for assembler in assemblers:
             outcomes += assembler.take(message, at)
         return outcomes
 

@@ -13,8 +13,7 @@ from typedcan.logs.transfers.assembly import Assembly, Complete, CycleCounts
 from typedcan.logs.transfers.readings import ReadingFrames, Readings, no_frames
 from typedcan.model.transfer import Numbering
 from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, frames_in
-from typedcan.model.transfers.reading_rules import shape_of, totals_of
-from typedcan.model.transfers.shape import FixedShape, Shape
+from typedcan.model.transfers.shape import FixedShape, Shape, shape_of, totals_of
 
 _WATCHED = 2.0
 """Seconds that are watched for what a cycle has."""

@@ -46,6 +46,10 @@ class Outcome(Enum):
     """The cycle is complete: `Cycle.completed` has its pieces."""
 
 
+KEPT = Outcome.KEPT
+"""What nearly every frame brings about; looking it up in its class takes longer."""
+
+
 class Cycle(Generic[PieceT]):
     """Puts cycles together of pieces, whatever those are.
 
@@ -148,7 +152,7 @@ class Cycle(Generic[PieceT]):
         self._at[key] = at
         self._lacking.discard(key)
         if self._lacking or not self.counts or not self._is_complete(at):
-            return Outcome.KEPT
+            return KEPT
         return Outcome.COMPLETE
 
     def _learn(self, key: int, within: int) -> Outcome:

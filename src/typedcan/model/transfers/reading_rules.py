@@ -8,11 +8,18 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from typedcan.model.signal_state import SignalState
-from typedcan.model.transfer import Numbering
-from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS, WINDOW, Cycle, Outcome, key_of
-from typedcan.model.transfers.kind import MOST_ITEMS, Problem, ProblemKind, Rules, whole
+from typedcan.model.transfers.cycle import (
+    KEPT,
+    NUMBER_BITS,
+    NUMBERS,
+    WINDOW,
+    Cycle,
+    Outcome,
+    key_of,
+)
+from typedcan.model.transfers.kind import Problem, ProblemKind, Rules, whole
 from typedcan.model.transfers.parts import Parts
-from typedcan.model.transfers.shape import FixedShape, Shape, Totals, TotalsShape, numbered_through
+from typedcan.model.transfers.shape import Totals, shape_of, totals_of
 
 Reading = float | SignalState
 """A measured value, or what the signal says instead."""
@@ -101,6 +108,7 @@ class ReadingRules(Rules):
             self.wanted[self._totals] = signals
         self._are_totals_own = bool(signals) and not self._totals
         self._items = len(own) - len(parts.items)
+        self._before = transfer.first_group - 1, transfer.first_number - 1
         self._fills = fills_of(parts)
         self._cycle: Cycle[tuple[Any, ...]] | None = None
         self._known: Totals | None = None
@@ -141,16 +149,22 @@ class ReadingRules(Rules):
 
         Takes the totals too, where signals have them: without them nothing is complete.
         """
-        due = self._cycle is not None and at >= self._cycle.deadline
-        overdue = self.expire(at) if due else ()
+        cycle = self._cycle
+        if (
+            cycle is not None
+            and at < cycle.deadline
+            and message != self._totals
+            and not self._are_totals_own
+        ):
+            return self._feed_frame(cycle, values, at)  # as nearly always
+        overdue = self.expire(at)
         if message == self._totals:
             return overdue + self._set_totals(values, at)
         if self._are_totals_own:
             overdue += self._set_totals(values[2 : self._items], at)
         if self._cycle is None:
             return overdue
-        outcomes = self._feed_frame(self._cycle, values, at)
-        return overdue + outcomes if overdue else outcomes
+        return overdue + self._feed_frame(self._cycle, values, at)
 
     def expire(self, now: float) -> tuple[Problem, ...]:
         """What is overdue at that time; said once until the next result."""
@@ -185,7 +199,7 @@ class ReadingRules(Rules):
         if self._fills or not isinstance(items[-1], float):
             within = _last_reading(items, self._fills)
         outcome = cycle.feed(key, within, items, at)
-        if outcome is Outcome.KEPT:
+        if outcome is KEPT:
             return ()
         if outcome is Outcome.COMPLETE:
             return (self._result(cycle, at),)
@@ -199,8 +213,8 @@ class ReadingRules(Rules):
             group, number = whole(group), whole(number)
             if group is None or number is None:
                 return 0
-        transfer = self._parts.transfer
-        return key_of(group - transfer.first_group + 1, number - transfer.first_number + 1)
+        groups, numbers = self._before
+        return key_of(group - groups, number - numbers)
 
     def _result(self, cycle: Cycle[tuple[Any, ...]], at: float) -> Readings:
         frames = iter(cycle.completed)
@@ -226,40 +240,6 @@ class ReadingRules(Rules):
 
     def _problem(self, kind: ProblemKind, text: str, at: float) -> Problem:
         return Problem(self._parts.transfer.name, kind, text, at)
-
-
-def totals_of(parts: Parts, values: Sequence[int | None]) -> Totals | None:
-    """How much there is; ``values`` has what its signals say, in the order of groups and count.
-
-    None where it is not known: a sender that counts none has not counted yet, and no transfer has
-    more than `MOST_ITEMS`.
-    """
-    transfer = parts.transfer
-    if transfer.counts:
-        return Totals(len(transfer.counts), sum(transfer.counts))
-    rest = iter(values)
-    groups = next(rest, None) if parts.groups else transfer.groups
-    count = next(rest, None) if parts.count else transfer.count
-    if not groups or not count or not (0 < groups <= MOST_ITEMS and 0 < count <= MOST_ITEMS):
-        return None
-    return Totals(groups, count)
-
-
-def shape_of(parts: Parts, totals: Totals) -> Shape | str:
-    """What is known of the numbers of readings with these totals, or why nothing can be."""
-    transfer = parts.transfer
-    if transfer.counts:
-        counts = dict(enumerate(transfer.counts, 1))
-    elif transfer.numbering is Numbering.WITHIN_GROUP:
-        return TotalsShape(totals)
-    else:
-        each, rest = divmod(totals.count, totals.groups)
-        if rest:
-            whose = f"{totals.count} readings of {totals.groups} {parts.word}s"
-            return f"{whose}, and their frames are numbered through: how many each has is not known"
-        counts = dict.fromkeys(range(1, totals.groups + 1), each)
-    is_through = transfer.numbering is Numbering.THROUGH
-    return FixedShape(counts, numbered_through(counts, parts.width) if is_through else None)
 
 
 def fills_of(parts: Parts) -> tuple[tuple[float, float], ...]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
+
+from typedcan.model.transfer import Numbering
+from typedcan.model.transfers.kind import MOST_ITEMS
+from typedcan.model.transfers.parts import Parts
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,3 +233,37 @@ def numbered_through(counts: Mapping[int, int], width: int) -> dict[int, int]:
         before[group] = frames
         frames += -(count // -width)
     return before
+
+
+def totals_of(parts: Parts, values: Sequence[int | None]) -> Totals | None:
+    """How much there is; ``values`` has what its signals say, in the order of groups and count.
+
+    None where it is not known: a sender that counts none has not counted yet, and no transfer has
+    more than `MOST_ITEMS`.
+    """
+    transfer = parts.transfer
+    if transfer.counts:
+        return Totals(len(transfer.counts), sum(transfer.counts))
+    rest = iter(values)
+    groups = next(rest, None) if parts.groups else transfer.groups
+    count = next(rest, None) if parts.count else transfer.count
+    if not groups or not count or not (0 < groups <= MOST_ITEMS and 0 < count <= MOST_ITEMS):
+        return None
+    return Totals(groups, count)
+
+
+def shape_of(parts: Parts, totals: Totals) -> Shape | str:
+    """What is known of the numbers of readings with these totals, or why nothing can be."""
+    transfer = parts.transfer
+    if transfer.counts:
+        counts = dict(enumerate(transfer.counts, 1))
+    elif transfer.numbering is Numbering.WITHIN_GROUP:
+        return TotalsShape(totals)
+    else:
+        each, rest = divmod(totals.count, totals.groups)
+        if rest:
+            whose = f"{totals.count} readings of {totals.groups} {parts.word}s"
+            return f"{whose}, and their frames are numbered through: how many each has is not known"
+        counts = dict.fromkeys(range(1, totals.groups + 1), each)
+    is_through = transfer.numbering is Numbering.THROUGH
+    return FixedShape(counts, numbered_through(counts, parts.width) if is_through else None)
