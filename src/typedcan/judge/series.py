@@ -12,7 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.columns import MessageColumns
+from typedcan.model.protocol import Signal
 from typedcan.wire.message import Message
+
+_INT64 = np.iinfo(np.int64)
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +27,7 @@ class Before:
 
     time: float
     order: int
-    raw: Mapping[str, int]
+    raw: Mapping[str, float]
     payload: NDArray[np.uint8]
 
 
@@ -76,10 +79,13 @@ class Series:
         """How many rows are new."""
         return len(self.time) - self.first
 
-    def raw(self, field: str) -> NDArray[np.int64]:
-        """The raw values of a field, named as in the message class."""
+    def raw(self, field: str) -> NDArray[Any]:
+        """The raw values of a field, named as in the message class.
+
+        They are int64, float64 for a float, and Python's integers where int64 does not hold all.
+        """
         if field not in self._cache:
-            own = self._new(field).astype(np.int64)
+            own = self._new(field).astype(_dtype(self.message.FIELDS[field].signal))
             before = None if self._before is None else self._before.raw[field]
             self._cache[field] = _behind(before, own)
         return self._cache[field]
@@ -118,7 +124,7 @@ class Series:
         return Before(
             float(self.time[-1]),
             int(self.order[-1]),
-            {field: int(self._new(field)[-1]) for field in self.message.FIELDS},
+            {field: self._new(field)[-1:].tolist()[0] for field in self.message.FIELDS},
             self.payload[-1].copy(),
         )
 
@@ -131,6 +137,13 @@ class Series:
 def latest(of: Series, at: Series) -> NDArray[np.int64]:
     """For each row of ``at`` the row of ``of`` that came last before it; -1 where there is none."""
     return np.searchsorted(of.order, at.order, side="left").astype(np.int64) - 1
+
+
+def _dtype(signal: Signal) -> type[Any]:
+    if signal.is_float:
+        return np.float64
+    least, most = signal.raw_limits
+    return np.int64 if _INT64.min <= least and most <= _INT64.max else object
 
 
 def _behind(before: float | None, own: NDArray[Any]) -> NDArray[Any]:

@@ -74,6 +74,8 @@ def _parts(signal: Signal) -> dict[int, tuple[int, int, int]]:
 
 def counter_places(counter: Counter, raw: NDArray[Any]) -> NDArray[np.int64]:
     """Which of its values a counter has, from 0; -1 for one that it does not run through."""
+    if raw.dtype == object:  # no counter runs as far as int64
+        raw = np.minimum(raw, np.iinfo(np.int64).max)
     index = raw.astype(np.int64) - counter.first
     own = (index >= 0) & (index < counter.modulus)
     if counter.step != 1:

@@ -71,7 +71,7 @@ def judge_codes(
     chunk: Chunk,
     every: Iterable[Codes],
     describe: Callable[[Codes, int], Said],
-    measure: Callable[[Codes, NDArray[np.int64]], NDArray[np.float64]] | None = None,
+    measure: Callable[[Codes, NDArray[Any]], NDArray[np.float64]] | None = None,
 ) -> None:
     """Judge the fields of the frames that can be believed.
 

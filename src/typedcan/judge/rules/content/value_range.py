@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,16 +43,16 @@ class ValueRange(Watcher):
 
 
 def _outside(field: Field) -> tuple[Span, ...]:
-    """Most ranges are as wide as their bits and cannot be left."""
+    """Most ranges are as wide as their bits and cannot be left; one without a code is none."""
     lowest, highest = field.signal.raw_limits
-    low, high = field.signal.raw_range
+    low, high = field.signal.sendable
     return without([(lowest, low - 1), (high + 1, highest)], field.states)
 
 
-def _excess(codes: Codes, raw: NDArray[np.int64]) -> NDArray[np.float64]:
-    low, high = codes.field.signal.raw_range
-    excess: NDArray[np.float64] = np.maximum(low - raw, raw - high) * abs(codes.field.factor)
-    return excess
+def _excess(codes: Codes, raw: NDArray[Any]) -> NDArray[np.float64]:
+    low, high = map(float, codes.field.signal.sendable)
+    excess = np.maximum(low - raw, raw - high) * abs(codes.field.factor)
+    return excess.astype(np.float64)
 
 
 def _describe(codes: Codes, code: int) -> Said:
