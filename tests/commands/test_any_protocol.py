@@ -217,7 +217,7 @@ def test_listen_prints_messages_of_both_widths_as_they_arrive() -> None:
         for extended in (False, True):
             bus.send(can.Message(arbitration_id=0x100, is_extended_id=extended, data=[5]))
         printed, summary = listening.communicate(timeout=30)
-    assert [line.split()[2:] for line in printed.splitlines()] == [
+    assert [line.split()[5:] for line in printed.splitlines()] == [
         ["SHORTID", "left=5"],
         ["LONGID", "right=5"],
     ]

@@ -32,8 +32,8 @@ ST1 = "  bms=HV closed  acc_relay=Open  balance=No Balancing  chg_line=Not conne
 LINES = [
     "B2V_ST2         soc=80 %  soh=100 %  current=-120.5 A  max_lmt_chg_curr=Signal Invalid",
     f"B2V_ST1         checksum=32  aliv=0{ST1}",
-    "B2V_ST1         ! checksum is 0x00, the bytes make 0x21  [00 21 00 00 00 00 00 00]",
-    "B2V_ST2         ! 7 bytes instead of 8  [00 00 00 00 00 00 00]",
+    "B2V_ST1         ! checksum is 0x00, the bytes make 0x21",
+    "B2V_ST2         ! 7 bytes instead of 8",
     f"B2V_ST1         checksum=32  aliv=0{ST1}",
     f"B2V_ST1         checksum=47  aliv=Signal Invalid{ST1}",
 ]
@@ -54,8 +54,12 @@ def test_a_log_in_any_format_decodes_to_the_same_lines(
     done = swapcan_command("decode", str(write(tmp_path / f"drive.{suffix}", DRIVE)))
     assert (done.returncode, done.stderr) == (0, SUMMARY)
     lines = done.stdout.splitlines()
-    for line, start, end in zip(lines, LINES, ENDINGS, strict=True):
-        assert line.split(maxsplit=2)[2].startswith(start)
+    sent = [frame for frame in DRIVE if frame.arbitration_id in (0x1882D0F3, 0x1881D0F3)]
+    for line, start, end, frame in zip(lines, LINES, ENDINGS, sent, strict=True):
+        _, _, direction, number, data, rest = line.split(maxsplit=5)
+        assert (direction, number) == ("Rx", f"{frame.arbitration_id:08X}")
+        assert bytes.fromhex(data) == frame.data
+        assert rest.startswith(start)
         assert line.endswith(end)
 
 
@@ -190,14 +194,16 @@ def test_counters_of_two_channels_do_not_mix(
     assert "faults 0" in capsys.readouterr().err
 
 
-def test_a_time_that_is_no_number_is_null_in_json(
+def test_a_time_that_is_no_number_is_damage_as_for_every_command(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "drive.csv"
     header = "timestamp,arbitration_id,extended,remote,error,dlc,data\n"
     path.write_text(f"{header}nan,0x18fff8a7,1,0,0,8,AAAAAAAAAAA=\n")
-    (line,) = json_lines(path, capsys)
-    assert (line["timestamp"], line["message"]) == (None, "BSU_BMS_0")
+    assert run(["decode", str(path), "--json"]) == 2
+    out, errors = capsys.readouterr()
+    assert not out
+    assert "damaged at line 2: " in errors
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

@@ -96,7 +96,7 @@ def test_a_narrow_code_page_gets_question_marks(swapcan_command: Command, tmp_pa
     log.write_text("(1.0) 总线 18FFF8A7#0000000000000000\n", encoding="utf-8")
     done = swapcan_command("decode", str(log), PYTHONIOENCODING="ascii", LC_ALL="C.UTF-8")
     assert done.returncode == 0
-    assert done.stdout.split()[:3] == ["1.000000", "??", "BSU_BMS_0"]
+    assert done.stdout.split()[:4] == ["1.000000", "??", "Rx", "18FFF8A7"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import random
+import re
 import sqlite3
 from pathlib import Path
 
@@ -31,7 +32,7 @@ def test_an_absent_log_is_one_line_and_stays_absent(
     assert not (tmp_path / name).exists()
 
 
-@pytest.mark.parametrize("name", ["drive.txt", "drive", "drive.txt.gz"])
+@pytest.mark.parametrize("name", ["drive.txt", "drive"])
 def test_an_unknown_suffix_is_one_line_that_names_the_known_ones(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -61,7 +62,7 @@ def test_frames_before_a_damaged_line_are_printed_and_counted(
         log.write("rubbish rubbish\n")
     lines, text = refused(path, capsys)
     assert len(lines) == 3
-    assert text.startswith("damaged: ")
+    assert text.startswith("damaged at ")
     assert "; read: frames 3, decoded 2, unknown 0 " in text
 
 
@@ -76,15 +77,11 @@ def test_a_blf_that_was_cut_short_says_so_after_its_frames(
     path.write_bytes(whole[: len(whole) // 2])
     lines, text = refused(path, capsys)
     assert 0 < len(lines) < 400
-    assert text.startswith(f"damaged: {len(whole) // 2} bytes are left of {len(whole)}; read: ")
+    assert text.startswith(f"damaged at byte {len(whole) // 2}: the file ends within a container")
+    assert f"lost: {len(whole) - len(whole) // 2:,} bytes; read: " in text
     assert f"frames {len(lines)}, decoded {len(lines)}," in text
 
 
-# python-can leaves a file open whose header it cannot read.
-leaves_file_open = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-
-
-@leaves_file_open
 @pytest.mark.parametrize("size", [0, 20, 100, 150, 170])
 def test_a_blf_cut_in_its_headers_is_one_line(
     size: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -93,10 +90,9 @@ def test_a_blf_cut_in_its_headers_is_one_line(
     path.write_bytes(path.read_bytes()[:size])
     lines, text = refused(path, capsys)
     assert lines == []
-    assert "it ends too early" in text or "bytes are left of" in text
+    assert re.match(r"damaged at byte \d+: .*; lost: \d+ bytes; read: frames 0, ", text)
 
 
-@leaves_file_open
 @pytest.mark.parametrize("suffix", ["asc", "blf", "csv", "db", "log", "trc", "asc.gz", "mf4"])
 def test_a_file_of_something_else_is_one_line(
     suffix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -116,7 +112,8 @@ def test_a_database_with_empty_rows_is_one_line(
     connection.close()
     lines, text = refused(path, capsys)
     assert len(lines) == 1
-    assert text.startswith("damaged: a frame without identifier or time; read: frames 1,")
+    assert text.startswith("damaged at frame 2: a frame without identifier or time; lost: all ")
+    assert "; read: frames 1, decoded 1," in text
 
 
 @pytest.mark.parametrize("suffix", ["asc", "blf", "csv", "log", "trc"])

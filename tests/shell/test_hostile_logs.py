@@ -46,8 +46,8 @@ def test_what_becomes_of_a_log_is_told_line_by_line(folder: Path) -> None:
         ["conform", LOG, "--json", "--language", "zh"],
         ["conform", "--list-rules"],
     )
-    assert r"  ca\x1b[2Jn  B2V_Ucell" in decode
-    assert json.loads(decode_json.splitlines()[2])["channel"] == "ca\x1b[2Jn"
+    assert r"damaged at line 5: no line of a candump log: '(1.4) ca\x1b[2Jn" in decode
+    assert "\x1b" not in decode + decode_json
     assert f"wrote {SHOWN}" in convert
     assert json.loads(convert_json.splitlines()[0])["damage"][0]["path"] == LOG
     assert f"Conforms: {SHOWN}" in conform

@@ -58,7 +58,39 @@ class Strange(Exception):
     """What no writer should raise."""
 
 
-@pytest.mark.parametrize("error", [OSError(28, "full"), OverflowError("inf"), Strange()])
+def test_what_a_format_cannot_hold_is_left_out_and_told_and_the_rest_is_recorded(
+    tmp_path: Path,
+) -> None:
+    recording = Recording(tmp_path / "drive.trc")
+    recording.write(frame(0, 1.0))
+    for odd in ({"is_error_frame": True}, {"is_remote_frame": True}, {"is_fd": True}):
+        recording.write(can.Message(timestamp=2.0, **odd))
+    recording.write(frame(0, float("nan")))
+    recording.close()
+    told = list(recording.remarks())
+    for what in ("1 error frames", "1 remote frames", "1 CAN FD frames", "1 frames without a time"):
+        assert any(what in line for line in told), what
+    with can.LogReader(tmp_path / "drive.trc") as reader:
+        assert len(list(reader)) == recording.frames == 2
+
+
+def test_a_frame_that_the_writer_refuses_is_counted_and_recording_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OverflowError("inf")
+
+    recording = Recording(tmp_path / "drive.blf")
+    with monkeypatch.context() as patch:
+        patch.setattr(can.BLFWriter, "on_message_received", refuse)
+        recording.write(frame(0, 1.0))
+    recording.write(frame(0, 2.0))
+    recording.close()
+    assert recording.frames == 1
+    assert "1 frames that the writer refuses (OverflowError: inf)" in " ".join(recording.remarks())
+
+
+@pytest.mark.parametrize("error", [OSError(28, "full"), Strange()])
 def test_whatever_a_writer_raises_names_the_file_in_one_line(
     error: Exception, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

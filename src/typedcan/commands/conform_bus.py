@@ -93,6 +93,8 @@ def recorded(path: Path) -> Iterator[Recording]:
         yield recording
     finally:
         recording.close()
+        for remark in recording.remarks():
+            note(remark)
 
 
 def draw(progress: StatusLine, recording: Recording, passed: float, seconds: float) -> None:

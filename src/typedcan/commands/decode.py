@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from typedcan.commands.log_options import add_window_options, need
+from typedcan.commands.shown import add_filters
 from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.commands.transcript import JSON_HELP
 from typedcan.shell.command_line import Command, completing_files
@@ -24,6 +25,10 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     completing_files(file)
     add_protocol_options(parser)
     add_window_options(parser)
+    add_filters(parser)
+    parser.add_argument(
+        "--follow", action="store_true", help="go on while the log grows; Ctrl-C ends"
+    )
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
 
 

@@ -7,6 +7,7 @@ import math
 from functools import partial
 
 from typedcan.commands.bus_options import add_bus_options, bus_name, open_bus, told_once
+from typedcan.commands.shown import add_filters, shown_of
 from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.commands.transcript import JSON_HELP, Transcript
 from typedcan.drive.listening import listen
@@ -24,11 +25,14 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help=JSON_HELP)
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
     parser.add_argument("--count", type=count, default=math.inf, help="end after so many messages")
+    add_filters(parser)
     add_bus_options(parser)
 
 
 def _run(tool: Tool, options: argparse.Namespace) -> int:
-    transcript = Transcript(tool.codec(options), as_json=options.json, live=True)
+    codec = tool.codec(options)
+    shown = shown_of(options, codec)
+    transcript = Transcript(codec, as_json=options.json, live=True, shown=shown)
     with open_bus(options) as bus:
         note(f"listening on {bus_name(bus, options)}, Ctrl-C ends")
         try:

@@ -25,11 +25,15 @@ from __future__ import annotations
 
 import json
 import math
+import re
+import shutil
+import sys
 from collections.abc import Collection, Iterator
 from typing import Any
 
 import can
 
+from typedcan.commands.shown import Shown
 from typedcan.model.j1939 import GLOBAL_ADDRESS
 from typedcan.model.numbers import without_noise
 from typedcan.model.signal_state import SignalState
@@ -39,6 +43,10 @@ from typedcan.wire.fields import Field, FloatField, LabelledField
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 from typedcan.wire.receiver import Counts, Receiver
+
+_BETWEEN = "  "
+_BETWEEN_PARTS = re.compile(r"(?<=\S)  (?=\S)")
+_INDENT = " " * 19
 
 JSON_HELP = (
     "print one JSON object a line: timestamp, channel, id, message, and signals, states, faults,"
@@ -58,13 +66,19 @@ class Transcript:
         Whether the lines are JSON.
     live
         Whether each line is to be seen at once, also through a pipe.
+    shown
+        Which messages and faults are printed; all are counted.
     """
 
-    def __init__(self, codec: Codec, *, as_json: bool, live: bool = False) -> None:
+    def __init__(
+        self, codec: Codec, *, as_json: bool, live: bool = False, shown: Shown | None = None
+    ) -> None:
         self._codec = codec
-        self._width = max((len(each.NAME) for each in codec.protocol.messages), default=0)
+        self._names = max((len(each.NAME) for each in codec.protocol.messages), default=0)
         self._as_json = as_json
         self._live = live
+        self._shown = shown or Shown()
+        self._columns = terminal_columns()
         # Alive counters run per bus, and a log can have several.
         self._receivers: dict[object, Receiver] = {}
         self._unknown: set[tuple[int, bool]] = set()
@@ -78,8 +92,10 @@ class Transcript:
                 self._unknown.add((frame.arbitration_id, frame.is_extended_id))
             return
         self.messages += isinstance(taken, Received)
-        line = json_line(taken) if self._as_json else text_line(taken, self._width)
-        say(line, flush=self._live)
+        if not self._shown.has(taken):
+            return
+        line = json_line(taken) if self._as_json else text_line(taken, self._names)
+        say(line if self._as_json else wrapped(line, self._columns), flush=self._live)
 
     def _receiver(self, channel: object) -> Receiver:
         if channel not in self._receivers:
@@ -108,15 +124,42 @@ def faults_text(counts: Collection[Counts]) -> str:
 
 
 def text_line(taken: Received[Message] | Fault, width: int = 0) -> str:
-    """A message with its values, or the fault, for people; names take so many characters."""
+    """A frame and what it says, or its fault, for people; names take so many characters.
+
+    Time in s, channel, direction, identifier, bytes, message, values.
+    """
     frame = taken.frame
     channel = "-" if frame.channel is None else frame.channel
     name = taken.message.NAME if isinstance(taken, Received) else taken.message
-    start = f"{frame.timestamp:17.6f}  {channel}  {name:<{width}}"
+    direction = "Rx" if frame.is_rx else "Tx"
+    number = f"{frame.arbitration_id:0{8 if frame.is_extended_id else 3}X}"
+    data = frame.data.hex().upper()
+    start = (
+        f"{frame.timestamp:17.6f}  {channel}  {direction}  {number:>8}  {data:<16}  {name:<{width}}"
+    )
     if isinstance(taken, Fault):
-        return f"{start}  ! {taken.text}  [{frame.data.hex(' ').upper()}]"
+        return f"{start}  ! {taken.text}"
     faults = (f"! {fault.text}" for fault in taken.faults)
     return "  ".join((start, *_addresses_text(taken), *values_text(taken.message), *faults))
+
+
+def terminal_columns() -> int | None:
+    """The columns of the terminal that is printed to; None where it is none."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def wrapped(line: str, columns: int | None) -> str:
+    """A line of parts with two blanks between them, in as many lines as the terminal needs."""
+    if columns is None or len(line) <= columns:
+        return line
+    lines = [""]
+    for part in _BETWEEN_PARTS.split(line):
+        longer = f"{lines[-1]}{_BETWEEN}{part}" if len(lines) > 1 or lines[-1] else part
+        if len(longer) > columns and lines[-1].strip():
+            lines.append(f"{_INDENT}{part}"[: max(columns, 1)])
+        else:
+            lines[-1] = longer
+    return "\n".join(lines)
 
 
 def _addresses_text(received: Received[Message]) -> list[str]:

@@ -50,7 +50,7 @@ def message_of(kind: type[Message], assignments: Sequence[str]) -> Message:
         field = _field_named(kind, name.strip())
         if field.name in values:
             raise CommandError(f"{kind.NAME}.{field.name} is given twice")
-        values[field.name] = _value(kind, field, text.strip())
+        values[field.name] = value_of(kind, field, text.strip())
     for name, parameter in inspect.signature(kind).parameters.items():
         if parameter.default is parameter.empty and name not in values:
             raise CommandError(_has_to_be_given(kind, kind.FIELDS[name]))
@@ -78,7 +78,8 @@ def _field_named(kind: type[Message], name: str) -> Field:
     raise CommandError(_unknown(f"{kind.NAME} has no field {shown(name)}", name, known))
 
 
-def _value(kind: type[Message], field: Field, text: str) -> Value:
+def value_of(kind: type[Message], field: Field, text: str) -> Value:
+    """The value of a field that a text stands for; raises `CommandError`."""
     if isinstance(field, LabelledField):
         return _code(kind, field, text)
     if isinstance(field, CharacterField) and len(text) == 1:

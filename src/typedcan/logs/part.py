@@ -174,6 +174,8 @@ class LogPart(LogSource):
         self._window = window
         self._later = later
         self.clock = Clock(0.0, None, None, "")
+        self.found = False
+        """Whether a frame was in the window."""
         self.first, self.last = math.nan, math.nan
         """Times of the first frame of all, and of the latest that was read, as the blocks have
         them."""
@@ -208,7 +210,6 @@ class LogPart(LogSource):
         Reading stops after a block whose frames are all later, unless none was in the window.
         """
         low, high = -math.inf, math.inf
-        found = False
         for given in self._log:
             block = given
             if math.isnan(self.first):
@@ -223,12 +224,12 @@ class LogPart(LogSource):
             self.last = np.fmax(self.last, float(block.timestamp.max()))
             kept = (block.timestamp >= low) & (block.timestamp <= high)
             if kept.all():
-                found = True
+                self.found = True
                 yield block
             elif kept.any():
-                found = True
+                self.found = True
                 yield rows_of(block, np.flatnonzero(kept))
-            elif found and (block.timestamp > high).all():
+            elif self.found and (block.timestamp > high).all():
                 return
 
     def _limits(self) -> tuple[float, float]:

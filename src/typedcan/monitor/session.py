@@ -175,6 +175,7 @@ class Session:
             recording.close()
         except RecordingError as error:
             problem = problem or str(error)
+        problem = problem or "; ".join(recording.remarks())
         self._ended = Recorded(recording.path, recording.frames, problem)
         self._note(self._ended)
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import struct
 import threading
 import time
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from copy import copy
 from pathlib import Path
@@ -13,6 +16,15 @@ from can.io.generic import MessageWriter
 from can.util import channel2int
 
 from typedcan.model.errors import TypedcanError, one_line
+
+_CANNOT: Mapping[str, tuple[tuple[str, str], ...]] = {
+    ".trc": (
+        ("error frames", "is_error_frame"),
+        ("remote frames", "is_remote_frame"),
+        ("CAN FD frames", "is_fd"),
+    ),
+}
+"""What python-can's writers leave out without a word."""
 
 _LATEST = 2.0**32
 """Seconds since 1970 that every format can hold."""
@@ -36,6 +48,11 @@ class Recording:
         self.path = path
         self.frames = 0
         """How many were written."""
+        self.left_out: Counter[str] = Counter()
+        """What the format or its writer cannot hold, by kind; the recording went on."""
+        self.retimed = 0
+        """How many were written with the system's time, since their own was none."""
+        self._cannot = _CANNOT.get(path.suffix.lower(), ())
         self._names_channels = path.suffix.lower() == ".log"
         self._thread_error: BaseException | None = None
         self._hook = threading.excepthook
@@ -47,18 +64,35 @@ class Recording:
             threading.excepthook = self._note_thread_error
 
     def write(self, frame: can.Message) -> None:
-        """Write a frame; raises `RecordingError`.
+        """Write a frame; raises `RecordingError` where the file takes no more.
 
-        One whose time stamp cannot be gets the system's time, since writers refuse it.
+        One whose time stamp cannot be gets the system's time, since writers refuse it. One that the
+        format cannot hold is left out and counted, and so is one that the writer refuses.
         """
-        frame = _timed(frame)
+        for kind, attribute in self._cannot:
+            if getattr(frame, attribute):
+                self.left_out[kind] += 1
+                return
+        timed = _timed(frame)
+        self.retimed += timed is not frame
+        frame = timed
         try:
             self._writer.on_message_received(frame if self._names_channels else _numbered(frame))
+        except (ValueError, TypeError, OverflowError, struct.error) as error:
+            self.left_out[f"frames that the writer refuses ({one_line(error)})"] += 1
+            return
         except Exception as error:  # noqa: BLE001 - writers raise what they like
             raise self._error(error) from None
         if self._thread_error:
             raise self._error(self._thread_error)
         self.frames += 1
+
+    def remarks(self) -> Iterator[str]:
+        """What is not in the file as it was on the bus, a line each."""
+        for kind, many in self.left_out.items():
+            yield f"{self.path}: left out, {self.path.suffix} cannot hold them: {many:,} {kind}"
+        if self.retimed:
+            yield f"{self.path}: {self.retimed:,} frames without a time have that of this computer"
 
     def close(self) -> None:
         """Write what is still on its way, and close the file; raises `RecordingError`."""

@@ -93,6 +93,10 @@ class OtherSource(LogSource):
             return
         try:
             for frame in self._reader:
+                if not isinstance(frame.arbitration_id, int) or not isinstance(
+                    frame.timestamp, int | float
+                ):
+                    raise ValueError("a frame without identifier or time")  # noqa: TRY004
                 payload_length(frame)  # raises where a damaged file made nonsense of a frame
                 channel_of(frame)
                 self._count += 1
