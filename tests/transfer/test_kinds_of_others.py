@@ -281,6 +281,27 @@ def test_a_fill_that_the_spec_names_is_no_reading() -> None:
     assert len(cycles(model, once, assume_seen=False)) == 1
 
 
+@pytest.mark.parametrize(("factor", "offset"), [("0.5", "-20"), ("-0.5", "20"), ("0.01", "7")])
+def test_a_fill_is_the_code_next_to_which_readings_are_some(factor: str, offset: str) -> None:
+    lone = replace(LOADS, numbering=Numbering.WITHIN_GROUP)
+    scaled = [
+        replace(each, factor=Decimal(factor), offset=Decimal(offset))
+        if each.name in lone.items
+        else each
+        for each in LOAD_SIGNALS
+    ]
+    model = protocol_of(lone, *scaled, name="LOADS")
+    frames = loads((1, 1, 2, 3, 11, 1), (2, 1, 2, 3, 21, 0))  # 1 is a reading, 0 is fill
+    (readings,) = told(typed_protocol(model), frames)
+    physical = [raw * float(factor) + float(offset) for raw in (11, 1, 21)]
+    assert [list(each.values()) for each in readings.values()] == [
+        pytest.approx(physical[:2]),
+        pytest.approx(physical[2:]),
+    ]
+    (row,) = cycles(model, frames, assume_seen=False)
+    assert row == pytest.approx(dict(zip([(1, 1), (1, 2), (2, 1)], physical, strict=True)))
+
+
 def test_totals_beyond_what_any_value_has_are_none_and_take_no_memory() -> None:
     wide = [*PARTS[:2], signal("ROWS", 16, 16), signal("ALL", 32, 24), signal("L1", 56)]
     lone = replace(LOADS, items=("L1",), numbering=Numbering.WITHIN_GROUP)
@@ -289,6 +310,7 @@ def test_totals_beyond_what_any_value_has_are_none_and_take_no_memory() -> None:
     frame = bytes([1, 1, 255, 255, *(MOST_ITEMS + 1).to_bytes(3, "little"), 7])
     assert assembler.take(codec.decode(0x123, frame, extended=False), 0.0) == ()
     assert assembler.missing() == "LOADS with the totals is missing"
+    assert assembler.duplicates == 0
     frame = bytes([1, 1, 1, 0, 1, 0, 0, 7])
     assert assembler.take(codec.decode(0x123, frame, extended=False), 0.0) == ({1: {1: 7}},)
 
