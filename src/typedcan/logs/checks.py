@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -135,6 +136,8 @@ class Checks:
         messages: dict[str, MessageColumns] = {}
         counts = decoded.counts
         self.faults.length.update(counts.too_short)
+        blocks = (columns.block for columns in decoded.messages.values())
+        any_fd = any((block.flags & FrameFlag.FD).any() for block in islice(blocks, 1))
         for name, columns in decoded.messages.items():
             kept = sound = columns
             message = self._checked[name]
@@ -144,7 +147,8 @@ class Checks:
                 kept = columns if self._keep_faulty else sound
                 counts.decoded[name] += len(kept) - len(columns)
             if len(sound):
-                self._formats(message, sound)
+                if self._formats_known and (any_fd or message.is_fd):
+                    self._formats(message, sound)
                 self._follow(name, sound)
             if len(kept):
                 messages[name] = kept
@@ -179,11 +183,9 @@ class Checks:
 
     def _formats(self, message: Message, columns: MessageColumns) -> None:
         """Count the frames that have another format than their message."""
-        if self._formats_known:
-            is_fd = columns.block.flags[columns.rows] & FrameFlag.FD
-            of_fd = int(np.count_nonzero(is_fd))
-            if wrong := len(columns) - of_fd if message.is_fd else of_fd:
-                self.faults.format[message.name] += wrong
+        of_fd = int(np.count_nonzero(columns.block.flags[columns.rows] & FrameFlag.FD))
+        if wrong := len(columns) - of_fd if message.is_fd else of_fd:
+            self.faults.format[message.name] += wrong
 
     def _follow(self, name: str, columns: MessageColumns) -> None:
         """Counter and gaps of one message, by channel and, of one found by PGN, by sender."""
