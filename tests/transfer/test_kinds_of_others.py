@@ -156,6 +156,16 @@ def test_each_frame_can_tell_how_many_items_or_frames_there_are(
     assert (problem.kind, problem.text) == ("length", "OF is 0: that cannot be")
 
 
+@pytest.mark.parametrize(("counted", "most"), [(Counted.ITEMS, 6), (Counted.FRAMES, 3)])
+def test_there_is_no_more_than_frames_can_be_numbered(counted: Counted, most: int) -> None:
+    transfer = replace(PLATE, count=None, count_signal="OF", counted=counted, fill=32)
+    parts = [signal("NO", 0, 2), signal("OF", 8), signal("C1", 16), signal("C2", 24)]
+    protocol = typed_protocol(protocol_of(transfer, *parts))
+    assert told(protocol, [bytes([1, most, 65, 66, 0, 0, 0, 0])]) == []
+    [problem] = told(protocol, [bytes([1, most + 1, 65, 66, 0, 0, 0, 0])])
+    assert (problem.kind, problem.text) == ("length", f"OF is {most + 1}: that cannot be")
+
+
 def test_a_number_that_another_message_tells_begins_anew_when_it_changes() -> None:
     transfer = replace(PLATE, count=None, count_signal="TOTAL", rounds=1)
     own = protocol_of(transfer, signal("NO", 0), signal("C1", 8), signal("C2", 16))
@@ -279,6 +289,21 @@ def test_a_fill_that_the_spec_names_is_no_reading() -> None:
     expected = {1: {1: 11, 2: 12}, 2: {1: 21}}
     assert told(typed_protocol(model), once) == [expected]
     assert len(cycles(model, once, assume_seen=False)) == 1
+
+
+@pytest.mark.parametrize(("group", "number"), [(0, 0), (0, 1), (1, 0), (1, 1)])
+def test_groups_and_numbers_begin_at_0_or_1_as_the_spec_says(group: int, number: int) -> None:
+    lone = replace(LOADS, numbering=Numbering.WITHIN_GROUP, first_group=group, first_number=number)
+    model = protocol_of(lone, *LOAD_SIGNALS, name="LOADS")
+    frames = loads(
+        (group, number, 2, 5, 11, 12),
+        (group, number + 1, 2, 5, 13, 0),
+        (group + 1, number, 2, 5, 21, 22),
+    )
+    expected = {group: {1: 11, 2: 12, 3: 13}, group + 1: {1: 21, 2: 22}}
+    assert told(typed_protocol(model), frames) == [expected]
+    (row,) = cycles(model, frames, assume_seen=False)
+    assert row == {(g, n): value for g, own in expected.items() for n, value in own.items()}
 
 
 @pytest.mark.parametrize(("factor", "offset"), [("0.5", "-20"), ("-0.5", "20"), ("0.01", "7")])
