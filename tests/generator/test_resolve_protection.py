@@ -115,6 +115,39 @@ def test_algorithms_stand_by_their_names_in_the_catalogue(car: Protocol) -> None
     }
 
 
+@pytest.mark.parametrize(
+    ("part", "before"),
+    [("identifier", (0, 0, 0x01, 0x22)), ("identifier_reversed", (0x22, 0x01, 0, 0))],
+)
+def test_an_identifier_of_29_bits_has_four_bytes(
+    part: str, before: tuple[int, ...], tmp_path: Path
+) -> None:
+    folder = spec(tmp_path / "spec", BEHAVIOUR.replace("[identifier, length]", f"[{part}]"))
+    (folder / "standard.yaml").write_text(STANDARD.replace("StandardCAN", "ExtendedCAN"), "utf-8")
+    door = compile_spec(folder, "spec", "car").protocol.message("Door")
+    assert door.extended
+    assert checksum(door).before == before
+
+
+def test_the_bytes_that_a_profile_covers_can_be_given(tmp_path: Path) -> None:
+    given = BEHAVIOUR.replace("PROFILE_02", "PROFILE_02\n    bytes: 1~5")
+    given = given.replace("PROFILE_05,", "PROFILE_05, bytes: others,")
+    protocol = compile_spec(spec(tmp_path / "spec", given), "spec", "car").protocol
+    assert checksum(protocol.message("Brake")).covered == (1, 2, 3, 4, 5)
+    assert checksum(protocol.message("Steer")).covered == (2, 3, 4, 5, 6, 7)
+
+
+def test_the_others_are_the_bytes_that_a_checksum_does_not_take_whole(tmp_path: Path) -> None:
+    given = BEHAVIOUR.replace("bytes: 0~3 6 7, after: [0x5A, 0xA5]", "bytes: others")
+    given = given.replace(
+        "signal: Old_CRC, algorithm: Old_CRC, open: yes, bytes: 0~6",
+        "signal: Old_CRC, algorithm: Old_CRC, open: yes, bytes: others",
+    )
+    protocol = compile_spec(spec(tmp_path / "spec", given), "spec", "car").protocol
+    assert checksum(protocol.message("Seat")).covered == (0, 1, 2, 3, 6, 7)
+    assert checksum(protocol.message("Old")).covered == (0, 1, 2, 3, 4, 5, 6)
+
+
 def test_counters_run_through_a_modulus_or_a_range(car: Protocol) -> None:
     assert car.message("Speed").counter == Counter(signal="Speed_Count", modulus=16)
     assert car.message("Steer").counter == Counter(signal="Steer_Count", modulus=255, first=1)
