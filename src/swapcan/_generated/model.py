@@ -9,4 +9,4 @@ from typedcan.model.package import read_model
 
 from . import DIGEST
 
-MODEL = read_model(__file__, DIGEST)
+MODEL = read_model(__name__, DIGEST)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pkgutil
+import sys
 from pathlib import Path
 
 from typedcan.model.errors import DatabaseError, ReadError
@@ -13,14 +15,16 @@ MODEL_FILE = "protocol.json"
 
 
 def read_model(module: str, digest: str) -> Protocol:
-    """The model beside a module, whose ``__file__`` is given.
+    """The model beside a module, whose ``__name__`` is given, also where both lie in a zip file.
 
     Raises `DatabaseError` where it is not there, cannot be read, or has another digest than the
     code.
     """
-    path = Path(module).with_name(MODEL_FILE)
+    path = Path(sys.modules[module].__file__ or module).with_name(MODEL_FILE)
     try:
-        protocol = from_json(path.read_text("utf-8"), str(path))
+        # Whatever has loaded the package has what lies beside its code.
+        data = pkgutil.get_data(module.rpartition(".")[0], MODEL_FILE) or b""
+        protocol = from_json(data.decode("utf-8"), str(path))
     except (OSError, UnicodeDecodeError, ReadError) as error:
         raise DatabaseError(f"{path}: {error}") from None
     if protocol.digest != digest:
