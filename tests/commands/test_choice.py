@@ -6,13 +6,18 @@ from pathlib import Path
 
 import can
 import pytest
+from spoken.editions import PUMP
 
 from swapcan import cli
 from typedcan.__main__ import main
+from typedcan.commands import send
+from typedcan.commands.tool import Tool
+from typedcan.shell import command_line
+from typedcan.shell.command_line import Program
 
 Capture = pytest.CaptureFixture[str]
 
-COMMANDS = ("decode", "listen", "send", "convert", "plot", "monitor")
+COMMANDS = ("decode", "listen", "send", "convert", "plot", "monitor", "simulate", "demo")
 
 
 # V2B_CMD with all contactors' faults at code 1: weld by the standard, open by V4.6.
@@ -62,6 +67,29 @@ def test_a_package_of_any_protocol_has_its_choices(log: Path, capsys: Capture) -
     arguments = ["--protocol", "swapcan._generated", "decode", str(log), "--edition", "v4.6"]
     assert main(arguments) == 0
     assert "main_motor_con_flt=Opened" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ([], "heat = Off makes its receiver act where edition maker is spoken: not sent without"),
+        (["--edition", "maker"], "cannot open the bus"),
+    ],
+)
+def test_a_code_that_acts_in_some_edition_needs_consent_unless_one_is_chosen(
+    options: list[str], said: str, capsys: Capture
+) -> None:
+    tool = Tool(program="pump", own=lambda _: PUMP, help={"send": "send"}, examples={})
+    program = Program(
+        name="pump",
+        description="",
+        epilog="",
+        commands={"send": "send"},
+        add=lambda commands, _: send.command(tool).add(commands),
+    )
+    words = ["send", "Command", "heat=off", "speed=1", *options, "-i", "serial"]
+    assert command_line.run(program, words) == 2
+    assert said in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -40,7 +40,7 @@ from swapcan.messages import (
     V2B_RQData,
     VinRequest,
 )
-from swapcan.nodes.bmu import PACK_CODE
+from swapcan.nodes.status import PACK_CODE
 from swapcan.transfer import split_vin
 from swapcan.wire import encode
 from typedcan.model.signal_state import SignalState

@@ -74,7 +74,7 @@ def printed_by(snippet: str, folder: Path) -> list[str]:
 
 
 def test_each_python_snippet_of_the_readme_is_looked_at_here() -> None:
-    assert len(blocks("python")) == 4
+    assert len(blocks("python")) == 5
 
 
 def test_the_snippet_for_links_prints_what_was_sent(tmp_path: Path) -> None:
@@ -85,8 +85,14 @@ def test_the_snippet_for_links_prints_what_was_sent(tmp_path: Path) -> None:
     assert "vehicle_speed=42.0" in second
 
 
+def test_the_snippet_for_editions_says_weld_as_the_edition_does(tmp_path: Path) -> None:
+    sent, heard = printed_by(blocks("python")[1], tmp_path)
+    assert bytes.fromhex(sent)[4] >> 4 & 3 == 2
+    assert "ContactorFault.WELD" in heard
+
+
 def test_the_snippet_for_nodes_gets_the_pack_code_of_the_simulated_pack(tmp_path: Path) -> None:
-    lines = printed_by(blocks("python")[1], tmp_path)
+    lines = printed_by(blocks("python")[2], tmp_path)
     assert "B2V_ST2: never seen -> alive" in lines
     *_, code, soc, message = (line for line in lines if "->" not in line)
     assert len(code) == 24
@@ -95,7 +101,7 @@ def test_the_snippet_for_nodes_gets_the_pack_code_of_the_simulated_pack(tmp_path
 
 
 def test_the_snippet_for_simulations_ends_with_the_high_voltage_off(tmp_path: Path) -> None:
-    (line,) = printed_by(blocks("python")[2], tmp_path)
+    (line,) = printed_by(blocks("python")[3], tmp_path)
     assert "PRECHARGE" in line
     assert "HV_CLOSED" in line
 
@@ -104,7 +110,7 @@ def test_the_snippet_for_conformance_judges_the_log_beside_it(
     project: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(project)
-    assert printed_by(blocks("python")[3], project) == ["conforms"]
+    assert printed_by(blocks("python")[4], project) == ["conforms"]
 
 
 def test_ci_runs_the_two_commands_as_the_readme_prints_them() -> None:

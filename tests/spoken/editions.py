@@ -135,6 +135,7 @@ EXTRA = model.Message(
     send_type=model.SendType.CYCLIC,
     signals=(signal("Cell", 0, 8, receivers=("Panel",)),),
 )
+LAMP = replace(EXTRA, name="Lamp", frame_id=0x18FF0004)
 OTHER = replace(USUAL, messages=(OTHER_COMMAND, REPORT, EXTRA))
 MODEL = replace(
     USUAL,
@@ -144,6 +145,12 @@ MODEL = replace(
             is_edition=True,
             english="A maker's",
             changes=changes_between(USUAL, OTHER),
+        ),
+        model.Variant(
+            name="third",
+            is_edition=True,
+            english="Another maker's",
+            changes=changes_between(USUAL, replace(USUAL, messages=(COMMAND, REPORT, LAMP))),
         ),
     ),
 )

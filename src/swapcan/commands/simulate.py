@@ -11,10 +11,10 @@ from typing import TypeVar
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
 from swapcan.commands.simulate_run import LivingNodes, allowed_nodes
+from swapcan.commands.tool import codec_of
 from swapcan.nodes.faults import FAULTS, able_nodes, planned_fault
 from swapcan.nodes.plan import DEFAULT_PLAN, STEPS, PlannedStep, plan_of
 from swapcan.nodes.simulation import check
-from swapcan.wire import Codec
 from typedcan.commands.bus_options import (
     add_bus_options,
     add_consent,
@@ -23,7 +23,8 @@ from typedcan.commands.bus_options import (
     is_virtual,
     open_bus,
 )
-from typedcan.shell.algorithms import add_algorithm_option, algorithms_of
+from typedcan.commands.tool import add_choice_options
+from typedcan.shell.algorithms import add_algorithm_option
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import say, seconds
 from typedcan.shell.printing import aligned
@@ -68,6 +69,7 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
         "really be VCU and BMU on a bus where somebody may obey: high voltage comes on, chargers"
         " and cooling start; without it they are left out, save on the virtual interface",
     )
+    add_choice_options(parser)
     add_algorithm_option(parser)
     add_bus_options(parser)
     parser.add_argument(
@@ -100,18 +102,17 @@ def _run(options: argparse.Namespace) -> int:
         return 0
     names = tuple(options.nodes) or PROTOCOL.nodes
     check(names, options.plan or (), options.faults)
+    codec = codec_of(options)  # refuses what there is not before a bus is opened
     named = [options, *([_charger_options(options)] if options.charger_bus else [])]
     virtual = all(map(is_virtual, named))
     if not virtual and not options.yes_drive_the_bus:
-        names = allowed_nodes(names, options.plan or (), options.faults)
+        names = allowed_nodes(codec.protocol, names, options.plan or (), options.faults)
     plan = _default_plan(names) if options.plan is None else options.plan
-    algorithms = algorithms_of(options)
-    Codec(algorithms)  # refuses what there is not before a bus is opened
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
         buses = [stack.enter_context(open_bus(each, virtual=virtual)) for each in named]
         name = bus_name(buses[0], options)
-        nodes = LivingNodes(options, names, plan, buses, name, algorithms, virtual=virtual)
+        nodes = LivingNodes(options, names, plan, buses, name, codec, virtual=virtual)
         nodes.live(interrupts)
     interrupts.stop_if_asked()
     return interrupts.status or (0 if nodes.is_safe else 2)
@@ -142,6 +143,7 @@ COMMAND = Command(
   swapcan simulate CHG TMS BSU -i socketcan -c can0
   swapcan simulate VCU -i socketcan -c can0 --plan "hv_on@1s, hv_off@60s" --yes-drive-the-bus
   swapcan simulate BMU -i pcan -c PCAN_USBBUS1 --fault over_temperature@30s --yes-drive-the-bus
+  swapcan simulate BMU TMS BSU --edition v4.6 -i socketcan -c can0 --yes-drive-the-bus
   swapcan simulate --list-faults
 
 VCU and BMU, which make others act, first look for two seconds whether somebody else sends their
@@ -150,6 +152,10 @@ or another signal, the safe codes of what they have commanded are sent first, as
 takes them. What cannot be caught is SIGKILL, a crash, a power cut, a frozen machine and a driver
 that hangs: then what is commanded holds until its receiver's own timeout, which the standard does
 not give. Switching high voltage off at speed opens contactors under load.
+
+Where a message comes that only another edition has than the chosen one, VCU and BMU end too: the
+same code can mean the opposite there. Signals that editions disagree about are left invalid, unless
+--edition says which is spoken.
 
 exit status: 0 the time was over, 2 it could not go on, or was not left safe, 128 and its number
 where a signal has ended it""",

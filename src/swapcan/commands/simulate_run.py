@@ -8,40 +8,43 @@ from contextlib import ExitStack, suppress
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands.simulation_report import SimulationReport
 from swapcan.nodes.departure import departure
 from swapcan.nodes.plan import PlannedStep
 from swapcan.nodes.simulation import Simulation
-from swapcan.wire import Codec
 from typedcan.drive.departure import Departure
 from typedcan.drive.driving import LEAVING, Driving, Left, look_out_time
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.drive.watchdog import HUNG
-from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import SystemClock
 from typedcan.node.errors import LIVE, StillActingError
+from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError, note, warn
 from typedcan.shell.process_signals import Interrupts
 from typedcan.simulate.faults import PlannedFault
 from typedcan.simulate.shared_bus import SharedBus
 from typedcan.wire.acting import acting_fields
+from typedcan.wire.codec import Codec
+from typedcan.wire.protocol import Protocol
 
 
 def allowed_nodes(
-    names: tuple[str, ...], plan: Sequence[PlannedStep], faults: Sequence[PlannedFault]
+    protocol: Protocol,
+    names: tuple[str, ...],
+    plan: Sequence[PlannedStep],
+    faults: Sequence[PlannedFault],
 ) -> tuple[str, ...]:
     """Those of some nodes that may live on a real bus without consent: none that acts.
 
     Says which are left out; raises `CommandError` where none is left, or the plan or a fault is
     for one that is not.
     """
-    acting = _acting_nodes(names)
+    acting = _acting_nodes(protocol, names)
     rest = tuple(name for name in names if name not in acting)
-    who = _who_acts(acting)
+    who = _who_acts(protocol, acting)
     without = "without --yes-drive-the-bus"
     if acting and not rest:
-        raise CommandError(f"{_who_acts(acting)} would make others act: not simulated {without}")
+        raise CommandError(f"{who} would make others act: not simulated {without}")
     for step in plan:
         if step.node in acting:
             raise CommandError(f"{step}: it is for {step.node}, which is not simulated {without}")
@@ -65,8 +68,8 @@ class LivingNodes:
         Nobody else is on them, and nothing can be moved.
     name
         What the vehicle's bus is called.
-    algorithms
-        What computes the checksums that the standard leaves open.
+    codec
+        What they speak.
     """
 
     def __init__(
@@ -76,7 +79,7 @@ class LivingNodes:
         plan: Sequence[PlannedStep],
         buses: Sequence[can.BusABC],
         name: str,
-        algorithms: Given,
+        codec: Codec,
         *,
         virtual: bool,
     ) -> None:
@@ -84,21 +87,20 @@ class LivingNodes:
         self._names = names
         self._plan = plan
         self._name = name
-        self._algorithms = algorithms
+        self._codec = codec
         self._lent = buses
-        self._looks_out = bool(_acting_nodes(names)) and not virtual
+        self._looks_out = bool(_acting_nodes(codec.protocol, names)) and not virtual
         self._buses: list[NotingBus] = []
         self.is_safe = True
         """Whether all that was commanded was ended, as far as is known."""
 
     def live(self, interrupts: Interrupts) -> None:
         """Look out for others where something acts, let them live, and leave the buses safe."""
-        played = [kind for node in self._names for kind in PROTOCOL.sent_by(node)]
-        codec = Codec(self._algorithms)
+        played = [kind for node in self._names for kind in self._codec.protocol.sent_by(node)]
         with ExitStack() as stack:
             self._buses = [
                 stack.enter_context(
-                    NotingBus(bus, codec, _ignore, played=played if self._looks_out else ())
+                    NotingBus(bus, self._codec, _ignore, played=played if self._looks_out else ())
                 )
                 for bus in self._lent
             ]
@@ -127,7 +129,8 @@ class LivingNodes:
             plan=self._plan,
             faults=self._options.faults,
             seed=self._options.seed,
-            algorithms=self._algorithms,
+            algorithms=algorithms_of(self._options),
+            codec=self._codec,
         )
         try:
             report = SimulationReport(simulation, as_json=self._options.json)
@@ -166,15 +169,15 @@ def _ignore(_: can.Message) -> None:
     """Note nothing."""
 
 
-def _acting_nodes(names: Iterable[str]) -> tuple[str, ...]:
+def _acting_nodes(protocol: Protocol, names: Iterable[str]) -> tuple[str, ...]:
     """Those of some nodes that send codes that act."""
-    return tuple(name for name in names if _acting_messages(name))
+    return tuple(name for name in names if _acting_messages(protocol, name))
 
 
-def _who_acts(names: Iterable[str]) -> str:
+def _who_acts(protocol: Protocol, names: Iterable[str]) -> str:
     """Some nodes with their messages that act, for people."""
-    return " and ".join(f"{name} ({', '.join(_acting_messages(name))})" for name in names)
+    return " and ".join(f"{name} ({', '.join(_acting_messages(protocol, name))})" for name in names)
 
 
-def _acting_messages(node: str) -> tuple[str, ...]:
-    return tuple(kind.NAME for kind in PROTOCOL.sent_by(node) if acting_fields(kind))
+def _acting_messages(protocol: Protocol, node: str) -> tuple[str, ...]:
+    return tuple(kind.NAME for kind in protocol.sent_by(node) if acting_fields(kind))

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import argparse
+
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.commands import HELP
-from typedcan.commands.tool import Tool, reading_tables
+from swapcan.wire import codec_for
+from typedcan.commands.tool import Tool, chosen_model, reading_tables
 from typedcan.monitor.glance import Glance
+from typedcan.shell.algorithms import algorithms_of
+from typedcan.wire.codec import Codec
 from typedcan.wire.protocol import Protocol
 
 _LOG_STATUS = "exit status: 0 all is well, 2 the command could not do its work, 3"
@@ -49,6 +54,15 @@ def _glance(protocol: Protocol) -> Glance | None:
     from swapcan.glance.look import glance_of  # the monitor alone needs it
 
     return glance_of(protocol)
+
+
+def codec_of(options: argparse.Namespace) -> Codec:
+    """What speaks as the options say, with the classes of this standard.
+
+    Raises `CommandError`, `ReadError` and `AlgorithmError` for what there is not.
+    """
+    chosen_model(PROTOCOL.model, options)
+    return codec_for(options.edition or "", options.readings, algorithms_of(options))
 
 
 TOOL = Tool(

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from swapcan.messages import MESSAGES
 from typedcan.model.signal_state import SignalState
 from typedcan.shell.printing import aligned
 from typedcan.wire.fields import CharacterField, Field, LabelledField
@@ -31,9 +30,10 @@ class _Seen:
 
 
 class Traffic:
-    """Counts and keeps what was received."""
+    """Counts and keeps what was received; ``expected`` are the messages in their order."""
 
-    def __init__(self) -> None:
+    def __init__(self, expected: Sequence[type[Message]]) -> None:
+        self.expected = expected
         self.kinds: dict[type[Message], _Seen] = {}
 
     @property
@@ -66,7 +66,7 @@ class Traffic:
         return aligned(("message", "signal", "value", "unit", "label"), rows)
 
     def _in_order(self) -> list[type[Message]]:
-        return [kind for kind in MESSAGES if kind in self.kinds]
+        return [kind for kind in self.expected if kind in self.kinds]
 
     def _message_row(self, kind: type[Message]) -> tuple[str, ...]:
         seen = self.kinds[kind]

@@ -31,7 +31,6 @@ from swapcan.messages import (
     HeatCommand,
     HvCommand,
     HvOffRequest,
-    Manufacturer,
     ThermalMode,
     VinRequest,
     WarningLevel,
@@ -56,16 +55,17 @@ from swapcan.plant.sensors import (
     OVER_VOLTAGE_CELL,
     SENSOR_FAILURE,
 )
-from swapcan.transfer import Vin, split_pack_code
+from swapcan.transfer import Vin
+from swapcan.wire import codec_for
 from typedcan.model.signal_state import SignalState
 from typedcan.node.clock import Clock, SystemClock
+from typedcan.spoken.codec import words_of
 from typedcan.supervise import State
+from typedcan.transfer import split
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message
-
-PACK_CODE = "001PB280SWAPR1EA10000025"
-"""The 24 characters of GB/T 34014 of the simulated pack."""
+from typedcan.wire.protocol import Protocol, Transfer
 
 _STEP = 0.01  # s, the longest that relays are left alone
 _MOST_STEPS = 1000  # after a standstill of the clock's user
@@ -80,14 +80,12 @@ _MAKERS: Mapping[type[Message], Callable[[PackStatus], Iterable[Message]]] = {
     B2V_ST4: status.st4,
     B2V_ST5: status.st5,
     B2V_ST6: status.st6,
-    B2V_Ucell: status.cell_voltages,
-    B2V_Temp: status.probe_temperatures,
     B2V_ElecEnergy: status.energy,
     B2C_Charger: status.charger,
     BMS_TMS_0: status.cooling_unit,
 }
 
-_COMMANDS = {HvCommand.HV_ON: Command.ON, HvCommand.HV_OFF: Command.OFF}
+_COMMANDS: Mapping[int, Command] = {HvCommand.HV_ON: Command.ON, HvCommand.HV_OFF: Command.OFF}
 
 
 class Bmu(Participant):
@@ -137,15 +135,17 @@ class Bmu(Participant):
         codec: Codec | None = None,
     ) -> None:
         clock = clock or SystemClock()
-        apart = {C2B_ACStatus} if charger else set[type[Message]]()
-        expected = _expected() - apart
+        codec = codec or codec_for()
+        on_charger_bus = words_of(codec).wanted(C2B_ACStatus)
+        apart = {on_charger_bus} if charger else set[type[Message]]()
+        expected = _expected(codec.protocol) - apart
         self.node = Node(PROTOCOL, self.name, vehicle, codec=codec, clock=clock, expect=expected)
         self.charger_node = self.node
         if charger:
             self.charger_node = Node(
                 PROTOCOL, self.name, charger, codec=codec, clock=clock, expect=apart
             )
-        super().__init__(*dict.fromkeys((self.node, self.charger_node)))
+        super().__init__(*dict.fromkeys((self.node, self.charger_node)), codec=codec)
         self._now = clock.now()
         self.pack = Pack(battery or Battery(seed=seed), self._now, seed=seed)
         self.vin = ""
@@ -189,9 +189,24 @@ class Bmu(Participant):
         """Hand over to the nodes what they send."""
         for kind, make in _MAKERS.items():
             node = self.charger_node if kind is B2C_Charger else self.node
-            node.supply(kind, partial(self._make, make))
-        self.node.provide(*status.battery_info(self.pack.battery.layout))
-        self.node.provide(*split_pack_code(PACK_CODE, Manufacturer.CATL))
+            self.supply(kind, partial(self._make, make), node=node)
+        for kind, name in ((B2V_Ucell, "cell_voltages"), (B2V_Temp, "probe_temperatures")):
+            self._send_readings(kind, self.protocol.transfer(name))
+        self.tell(*status.battery_info(self.pack.battery.layout))
+        self.tell(*status.pack_code(self.protocol, self.words))
+
+    def _send_readings(self, kind: type[Message], transfer: Transfer) -> None:
+        """Send all cells, or all probes, in the frames that what is spoken has for them."""
+
+        def make() -> tuple[Message, ...]:
+            measured = self.state.measured
+            groups = measured.cells if kind is B2V_Ucell else measured.probes
+            return split(transfer, dict(enumerate(groups, 1)))
+
+        every = self.words.kind(kind).PERIOD or 0.0
+        # Where the spec says that a cycle takes longer than a period, one frame goes out in each.
+        one_a_period = (transfer.parts.transfer.period or 0) / 1000 > every
+        self.supply(kind, make, period=every * len(make()) if one_a_period else None)
 
     def _make(self, make: Callable[[PackStatus], Iterable[Message]]) -> Iterable[Message]:
         return make(self.state)
@@ -219,7 +234,7 @@ class Bmu(Participant):
         if charge is None:
             charge = _number(charger, "current_output")
         return Surroundings(
-            command=_COMMANDS.get(_hv_command(command), Command.NONE),
+            command=_COMMANDS.get(command.hv_on_off, Command.NONE) if command else Command.NONE,
             accessory=bool(command and command.hv_acc_on_off == AccessoryHvCommand.HV_ACC_ON),
             heating=bool(command and command.heat_on_off == HeatCommand.HEAT_ON),
             speed=_number(command, "vehicle_speed"),
@@ -235,6 +250,8 @@ class Bmu(Participant):
 
     def _heard(self, node: Node, kind: type[Message]) -> Message | None:
         """The message of a kind that came last, unless it is lost."""
+        if not self.words.has(kind):
+            return None
         received = node.last(kind)
         alive = node.state(kind) in (State.ALIVE, State.LATE)
         return received.message if received and alive else None
@@ -242,7 +259,7 @@ class Bmu(Participant):
     def _cooling_failed(self, unit: Message | None) -> bool:
         if isinstance(unit, TMS_BMS_0):
             return unit.fault_lv in (WarningLevel.LEVEL_2, WarningLevel.LEVEL_3)
-        return self.node.state(TMS_BMS_0) is State.LOST
+        return self.words.has(TMS_BMS_0) and self.node.state(TMS_BMS_0) is State.LOST
 
     def _ask(self, now: float) -> None:
         """Ask for the VIN until it is known, for high voltage off while a fault is grave."""
@@ -252,7 +269,7 @@ class Bmu(Participant):
         if wants == self._asked and not again:
             return
         self._asked, self._asked_at = wants, now
-        self.node.set(
+        self.ask_for(
             B2V_RQ(
                 vin=VinRequest.NO_REQUEST_VIN if self.vin else VinRequest.REQUEST_VIN,
                 hv_off=HvOffRequest.REQUEST_HV_OFF if to_go else HvOffRequest.NO_REQUEST_HV_OFF,
@@ -260,19 +277,13 @@ class Bmu(Participant):
         )
 
 
-def _expected() -> set[type[Message]]:
+def _expected(protocol: Protocol) -> set[type[Message]]:
     """What the BMU is to hear all the time."""
     return {
         message
-        for message in PROTOCOL.received_by("BMU")
-        if message.PERIOD is not None and message not in PROTOCOL.conditional
+        for message in protocol.received_by("BMU")
+        if message.PERIOD is not None and message not in protocol.conditional
     }
-
-
-def _hv_command(command: V2B_CMD | None) -> HvCommand:
-    """What is commanded; an invalid code is none."""
-    code = command.hv_on_off if command else HvCommand.SIGNAL_INVALID
-    return HvCommand(code)
 
 
 def _number(message: Message | None, field: str) -> float:

@@ -47,11 +47,11 @@ class Bsu(Participant):
     ) -> None:
         clock = clock or SystemClock()
         self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=clock)
-        super().__init__(self.node)
+        super().__init__(self.node, codec=codec)
         self.locked = True
         self.temperature = _AMBIENT
         self._last_step = clock.now()
-        self.node.supply(BSU_BMS_0, self._report)
+        self.supply(BSU_BMS_0, self._report)
 
     @property
     def status(self) -> str:

@@ -69,7 +69,7 @@ class Chg(Participant):
     ) -> None:
         self._clock = clock or SystemClock()
         self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=self._clock)
-        super().__init__(self.node)
+        super().__init__(self.node, codec=codec)
         self.current = 0.0
         self.voltage = 0.0
         self._wanted: B2C_Charger | None = None
@@ -127,7 +127,7 @@ class Chg(Participant):
         passed, self._last_step = now - self._last_step, now
         if now >= self._tested_at and not self._reporting:
             self._reporting = True
-            self.node.supply(C2B_ACStatus, self._report)
+            self.supply(C2B_ACStatus, self._report)
         current, voltage = self._goal()
         self.current = min(current, self.current + _CURRENT_RAMP * passed)
         self.voltage = min(voltage, self.voltage + _VOLTAGE_RAMP * passed)

@@ -14,12 +14,13 @@ from swapcan.messages import (
     ChargerOperation,
 )
 from swapcan.nodes.simulation import Simulation
-from swapcan.wire import Codec
 from typedcan.drive.departure import Departure
 from typedcan.drive.noting_bus import NotingBus
 from typedcan.simulate.faults import PlannedFault
+from typedcan.spoken.codec import words_of
+from typedcan.wire.codec import Codec
 from typedcan.wire.errors import DecodeError, UnknownFrameError
-from typedcan.wire.message import MessageT
+from typedcan.wire.message import Message, MessageT
 
 
 def departure(
@@ -37,17 +38,17 @@ def departure(
         ],
         live_on=list(nodes.values()),
         stand_still=[pack] if pack else [],
-        are_off=partial(are_off, simulation.participants, buses),
+        are_off=partial(are_off, simulation.participants, buses, simulation.codec),
     )
 
 
-def are_off(played: Collection[str], buses: Sequence[NotingBus]) -> bool:
+def are_off(played: Collection[str], buses: Sequence[NotingBus], codec: Codec) -> bool:
     """Whether all that was commanded by the nodes that are played is off, by what others report.
 
     A charger that says nothing does not give anything.
     """
-    status, wanted = _last(B2V_ST1, buses), _last(B2C_Charger, buses)
-    charger = _last(C2B_ACStatus, buses)
+    status, wanted = _last(B2V_ST1, buses, codec), _last(B2C_Charger, buses, codec)
+    charger = _last(C2B_ACStatus, buses, codec)
     if "BMU" in played:
         gives = charger is not None and charger.charger_start == ChargerOperation.ON
         return "CHG" in played or not gives
@@ -62,18 +63,24 @@ def _forget_charging(simulation: Simulation, buses: Sequence[NotingBus]) -> None
     # One that was taken off earlier, and said that it stopped, may be asleep by now (5.2.1.4).
     if chg and chg.connected:
         for bus in buses:
-            bus.latest.pop((B2C_Charger.FRAME_ID, B2C_Charger.EXTENDED), None)
+            bus.latest.pop(_number(B2C_Charger, simulation.codec), None)
         chg.disconnect()
 
 
-def _last(kind: type[MessageT], buses: Sequence[NotingBus]) -> MessageT | None:
+def _last(kind: type[MessageT], buses: Sequence[NotingBus], codec: Codec) -> MessageT | None:
     """What others sent last of a message, since the last code that acts."""
     for bus in buses:
-        frame = bus.latest.get((kind.FRAME_ID, kind.EXTENDED))
+        frame = bus.latest.get(_number(kind, codec))
         try:
-            message = Codec().decode_frame(frame) if frame else None
+            message = codec.decode_frame(frame) if frame else None
         except (DecodeError, UnknownFrameError):
             continue
         if isinstance(message, kind):
             return message
     return None
+
+
+def _number(kind: type[Message], codec: Codec) -> tuple[int, bool]:
+    """The identifier of a message in what is spoken, and whether it has 29 bits."""
+    spoken = words_of(codec).wanted(kind)
+    return spoken.FRAME_ID, spoken.EXTENDED

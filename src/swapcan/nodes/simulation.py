@@ -20,7 +20,7 @@ from swapcan.nodes.tms import Tms
 from swapcan.nodes.vcu import VIN, Vcu
 from swapcan.nodes.world import World
 from swapcan.plant.battery import Battery
-from swapcan.wire import Codec
+from swapcan.wire import codec_for
 from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import Clock, SimulatedClock, SystemClock
 from typedcan.node.errors import StillActingError
@@ -28,6 +28,9 @@ from typedcan.node.leaving import raise_or_note
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from typedcan.simulate.simulated_bus import SimulatedBus, SimulatedWire
 from typedcan.simulate.times import PlanError
+from typedcan.spoken.codec import words_of
+from typedcan.wire.codec import Codec
+from typedcan.wire.message import Message
 
 _MASK = 0x1FFF_FFFF
 _NOBODYS = 0
@@ -76,6 +79,8 @@ class Simulation:
         Of the pack, where it is not to be the usual.
     algorithms
         What computes the checksums that the standard leaves open, as `swapcan.Codec` has it.
+    codec
+        What all of them speak, in place of those: see `swapcan.codec_for`.
 
     Raises
     ------
@@ -101,6 +106,7 @@ class Simulation:
         vin: str = VIN,
         battery: Battery | None = None,
         algorithms: Given | None = None,
+        codec: Codec | None = None,
     ) -> None:
         names, plan, faults = tuple(nodes), tuple(plan), tuple(faults)
         check(names, plan, faults)
@@ -108,10 +114,11 @@ class Simulation:
         self.wires = wires
         self.buses: dict[str, tuple[FaultyBus, ...]] = {}
         self._algorithms = algorithms
+        self.codec = codec or codec_for(algorithms=algorithms)
         self._vehicle, self._charger = vehicle, charger or vehicle
         try:
             apart = charger is not None
-            own: _Own = {"clock": self.clock, "codec": Codec(algorithms)}
+            own: _Own = {"clock": self.clock, "codec": self.codec}
             self.bmu = self._bmu(own, seed, battery, apart=apart) if "BMU" in names else None
             self.vcu = Vcu(self._bus("VCU"), vin=vin, **own) if "VCU" in names else None
             self.chg = self._chg(own, plan) if "CHG" in names else None
@@ -138,8 +145,13 @@ class Simulation:
         faults: Iterable[PlannedFault] = (),
         seed: int = 0,
         battery: Battery | None = None,
+        edition: str = "",
+        readings: Iterable[str] = (),
     ) -> Self:
-        """Nodes on simulated buses, one for the vehicle and one for the charger, and clock."""
+        """Nodes on simulated buses, one for the vehicle and one for the charger, and clock.
+
+        They speak an edition and readings, as `swapcan.codec_for` has them; raises `ReadError`.
+        """
         clock = SimulatedClock()
         vehicle, charger = SimulatedWire(clock, "vehicle"), SimulatedWire(clock, "charger")
         return cls(
@@ -152,6 +164,7 @@ class Simulation:
             wires=(vehicle, charger),
             seed=seed,
             battery=battery,
+            codec=codec_for(edition, readings),
         )
 
     def __enter__(self) -> Self:
@@ -187,7 +200,7 @@ class Simulation:
         for name in fault.nodes:
             if fault.name in TRANSMISSION_FAULTS:
                 for bus in self.buses.get(name, ()):
-                    bus.inject(fault.name, *fault.messages)
+                    bus.inject(fault.name, *self._spoken(fault))
             elif name in self.participants:
                 self.participants[name].inject(fault.name)
 
@@ -196,9 +209,13 @@ class Simulation:
         for name in fault.nodes:
             if fault.name in TRANSMISSION_FAULTS:
                 for bus in self.buses.get(name, ()):
-                    bus.heal(fault.name, *fault.messages)
+                    bus.heal(fault.name, *self._spoken(fault))
             elif name in self.participants:
                 self.participants[name].heal(fault.name)
+
+    def _spoken(self, fault: PlannedFault) -> list[type[Message]]:
+        """The messages of a fault, in the classes of what is spoken."""
+        return [*map(words_of(self.codec).kind, fault.messages)]
 
     def _release_late_frames(self) -> None:
         for buses in self.buses.values():
@@ -210,15 +227,14 @@ class Simulation:
         bus = FaultyBus(
             self._charger() if charger else self._vehicle(),
             clock=self.clock,
+            protocol=self.codec.protocol,
             algorithms=self._algorithms,
         )
         # As in a controller, what is meant for others never gets to the software.
-        accepted = [(kind.FRAME_ID, kind.EXTENDED) for kind in PROTOCOL.received_by(node)]
+        heard = self.codec.protocol.received_by(node)
+        accepted = [(kind.FRAME_ID, kind.EXTENDED) for kind in heard] or [(_NOBODYS, True)]
         bus.set_filters(
-            [
-                {"can_id": number, "can_mask": _MASK, "extended": extended}
-                for number, extended in accepted or [(_NOBODYS, True)]
-            ]
+            [{"can_id": id_, "can_mask": _MASK, "extended": wide} for id_, wide in accepted]
         )
         self.buses[node] = (*self.buses.get(node, ()), bus)
         return bus

@@ -19,8 +19,6 @@ from swapcan.messages import (
     B2V_BattInfo1,
     B2V_BattInfo2,
     B2V_ElecEnergy,
-    B2V_Temp,
-    B2V_Ucell,
     BalancingState,
     BatteryType,
     ChargeLine,
@@ -29,6 +27,7 @@ from swapcan.messages import (
     FaultLevel,
     HvRelayState,
     HvRequest,
+    Manufacturer,
     RelayState,
 )
 from swapcan.plant.battery import Layout
@@ -36,7 +35,14 @@ from swapcan.plant.pack import PackStatus
 from swapcan.plant.relays import Relay
 from swapcan.plant.sensors import FULL_CELL
 from swapcan.plant.thermal import NEUTRAL_TEMPERATURE, SET_TEMPERATURES
-from swapcan.transfer import split_cell_voltages, split_probe_temperatures
+from swapcan.transfer import split_pack_code
+from typedcan.spoken.words import Same
+from typedcan.transfer import Text, split
+from typedcan.wire.message import Message
+from typedcan.wire.protocol import Protocol
+
+PACK_CODE = "001PB280SWAPR1EA10000025"
+"""The 24 characters of GB/T 34014 of the simulated pack."""
 
 
 def st0(status: PackStatus) -> Iterator[B2V_ST0]:
@@ -130,16 +136,6 @@ def st6(status: PackStatus) -> Iterator[B2V_ST6]:
     )
 
 
-def cell_voltages(status: PackStatus) -> tuple[B2V_Ucell, ...]:
-    """All cells."""
-    return split_cell_voltages(dict(enumerate(status.measured.cells, 1)))
-
-
-def probe_temperatures(status: PackStatus) -> tuple[B2V_Temp, ...]:
-    """All probes."""
-    return split_probe_temperatures(dict(enumerate(status.measured.probes, 1)))
-
-
 def energy(status: PackStatus) -> Iterator[B2V_ElecEnergy]:
     """Energy counters."""
     yield B2V_ElecEnergy(
@@ -183,6 +179,13 @@ def _flags(status: PackStatus, message: type[B2V_ST0] | type[B2V_ST1]) -> dict[s
         for field, level in status.faults.levels.items()
         if field in fields
     }
+
+
+def pack_code(protocol: Protocol, words: Same) -> tuple[Message, ...]:
+    """The code of the pack in what is spoken, and who made the battery."""
+    transfer = protocol.transfer("pack_code")
+    first: Any = words.gist(split_pack_code(PACK_CODE, Manufacturer.CATL)[0])
+    return split(transfer, Text(transfer.name, PACK_CODE, {"manufacturer": first.manufacturer}))
 
 
 def battery_info(layout: Layout) -> tuple[B2V_BattInfo1, B2V_BattInfo2]:

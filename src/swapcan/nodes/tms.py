@@ -59,14 +59,14 @@ class Tms(Participant):
     ) -> None:
         clock = clock or SystemClock()
         self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=clock)
-        super().__init__(self.node)
+        super().__init__(self.node, codec=codec)
         self.outlet = self.inlet = _AMBIENT
         self._wanted = BMS_TMS_0(reqst_tms_hv_on=HvRequest.REQUEST_HV_OFF)
         self._alone = True
         self._last_step = clock.now()
         self.node.on(BMS_TMS_0, self._obey)
         self.node.on(StateChanged, self._watch)
-        self.node.supply(TMS_BMS_0, self._report)
+        self.supply(TMS_BMS_0, self._report)
 
     @property
     def mode(self) -> ThermalMode | Code2:

@@ -37,6 +37,7 @@ from typedcan.model.signal_state import SignalState
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.request import Pending
 from typedcan.supervise import State, StateChanged
+from typedcan.transfer import split
 from typedcan.wire.codec import Codec
 from typedcan.wire.link import Received
 from typedcan.wire.message import Message
@@ -90,7 +91,7 @@ class Vcu(Participant):
     ) -> None:
         clock = clock or SystemClock()
         self.node = Node(PROTOCOL, self.name, bus, codec=codec, clock=clock)
-        super().__init__(self.node)
+        super().__init__(self.node, codec=codec)
         self.mode = Mode.OFF
         self.trouble = ""
         self.states: list[BmsState | int] = []
@@ -103,9 +104,10 @@ class Vcu(Participant):
         self._switching_off = False
         self._level: FaultLevel | int = FaultLevel.NORMAL
         self._last_step = clock.now()
-        self.node.provide(*split_vin(vin))
-        self.node.supply(V2B_CMD, self._command)
-        self.node.set(
+        split_vin(vin)  # refuses what is none
+        self.node.provide(*split(self.protocol.transfer("vin"), vin))
+        self.supply(V2B_CMD, self._command)
+        self.ask_for(
             V2B_RQData(
                 rq_batt_info=BattInfoRequest.NOT_REQUEST_BATTINFO_DATA,
                 rq_sys_code=SysCodeRequest.NOT_REQUEST_SYSCODE_DATA,

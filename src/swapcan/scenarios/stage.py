@@ -8,13 +8,12 @@ from functools import partial
 
 import can
 
-from swapcan._generated.protocol import PROTOCOL
 from swapcan.nodes.departure import departure
 from swapcan.nodes.simulation import Simulation
 from swapcan.scenarios.scenario import Scenario, ScenarioError
-from swapcan.wire import Codec
+from swapcan.wire import codec_for
 from typedcan.drive.driving import LEAVING, LOOK_OUT, BusyBusError, Driving, Left
-from typedcan.drive.noting_bus import NotingBus
+from typedcan.drive.noting_bus import NotingBus, OtherEditionError
 from typedcan.model.checksums.registry import Given
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.errors import StillActingError
@@ -22,6 +21,7 @@ from typedcan.simulate.echoes import Echoes
 from typedcan.simulate.faults import TRANSMISSION_FAULTS, PlannedFault
 from typedcan.simulate.shared_bus import SharedBus
 from typedcan.simulate.simulated_bus import SimulatedWire
+from typedcan.wire.codec import Codec
 
 __all__ = ["LEAVING", "LOOK_OUT", "Left", "Stage"]
 
@@ -48,6 +48,8 @@ class Stage:
         Is told, in a thread of its own, that the program hangs and the pack was told to switch off.
     algorithms
         What computes the checksums that the standard leaves open, as `swapcan.Codec` has it.
+    codec
+        What the pack speaks, in place of those: see `swapcan.codec_for`.
 
     ``left`` is how the scenario that was played last has left the pack; ``watch`` may be another
     one for the next.
@@ -63,6 +65,7 @@ class Stage:
         watch: Callable[[float, float], object] = lambda _passed, _all: None,
         warn: Callable[[], object] = lambda: None,
         algorithms: Given | None = None,
+        codec: Codec | None = None,
     ) -> None:
         self._bus = bus
         self._clock = clock or SystemClock()
@@ -71,7 +74,7 @@ class Stage:
         self.watch = watch
         self._warn = warn
         self._algorithms = algorithms
-        self._codec = Codec(algorithms)
+        self._codec = codec or codec_for(algorithms=algorithms)
         self._echoes = Echoes()
         self._driven: NotingBus | None = None
         self._driving: Driving | None = None
@@ -92,14 +95,14 @@ class Stage:
         Raises
         ------
         ScenarioError
-            Somebody else sends what is to be played.
+            Somebody else sends what is to be played, or the pack speaks another edition.
         HungError
             The program stood still while something acted.
         BaseException
             What a bus has raised for a second, and what ``note``, ``watch`` and ``is_over`` raise.
         """
         self.left = Left.UNTOUCHED
-        played = [kind for node in nodes for kind in PROTOCOL.sent_by(node)]
+        played = [kind for node in nodes for kind in self._codec.protocol.sent_by(node)]
         with NotingBus(
             self._bus, self._codec, note, clock=self._clock, played=played, echoes=self._echoes
         ) as bus:
@@ -114,7 +117,7 @@ class Stage:
             )
             try:
                 self._play(driving, scenario, nodes, bus)
-            except BusyBusError as error:
+            except (BusyBusError, OtherEditionError) as error:
                 raise ScenarioError(str(error)) from None
         if driving.interrupted:
             raise driving.interrupted
@@ -158,6 +161,7 @@ class Stage:
             clock=self._clock,
             wires=self._wires,
             algorithms=self._algorithms,
+            codec=self._codec,
         )
         for fault in scenario.faults:
             simulation.world.at(fault.start, partial(_inject, simulation, fault))

@@ -11,6 +11,7 @@ from typedcan.commands.transcript import values_text
 from typedcan.commands.values import message_named, message_of
 from typedcan.drive.driving import Driving, look_out_time
 from typedcan.drive.noting_bus import NotingBus
+from typedcan.model.editions import acting_in_editions, edition_of
 from typedcan.node.clock import SystemClock
 from typedcan.shell.command_line import Command
 from typedcan.shell.console import CommandError, note, say
@@ -69,10 +70,27 @@ def _run(tool: Tool, options: argparse.Namespace) -> int:
     return 0
 
 
+def _acts_in_an_edition(protocol: Protocol, message: Message) -> str:
+    """Which code acts in an edition, where none was chosen, in words."""
+    if edition_of(protocol.model):
+        return ""
+    codes = acting_in_editions(protocol.model)
+    for field in message.FIELDS.values():
+        value, known = getattr(message, field.name), codes.get((message.NAME, field.dbc_name))
+        if not known or value is None:
+            continue
+        if edition := known.get(field.to_raw(message.NAME, value)):
+            text = f"{field.name} = {field.text(value)}"
+            return f"{text} makes its receiver act where edition {edition} is spoken"
+    return ""
+
+
 def _what_may_act(protocol: Protocol, message: Message) -> str:
     """Why the message may move something, in words; empty where it is known that it does not."""
     if acting := what_acts(message):
         return f"{', '.join(acting)} makes its receiver act"
+    if edition := _acts_in_an_edition(protocol, message):
+        return edition
     if any(signal.acting for _, signal in protocol.model.signals()):
         return ""
     return "may make its receiver act: nothing is known of codes that do"

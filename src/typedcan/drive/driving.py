@@ -126,7 +126,7 @@ class Driving:
     def look_out(self, seconds: float | None = None) -> None:
         """See that nobody else sends what is to be sent, for `look_out_time` unless it is said.
 
-        Raises `BusyBusError`, and as `live`.
+        Raises `BusyBusError`, `OtherEditionError`, and as `live`.
         """
         played = [kind for bus in self._buses for kind in bus.played]
         self.live(self._hearing(), look_out_time(played) if seconds is None else seconds)
@@ -134,8 +134,8 @@ class Driving:
     def live(self, world: World, seconds: float) -> None:
         """Let time pass, unless it is to end, or cannot go on.
 
-        Raises `BusyBusError`, `HungError`, what a bus has raised for a second, what a recorder has
-        raised, and what the world and the callbacks raise.
+        Raises `BusyBusError`, `OtherEditionError`, `HungError`, what a bus has raised for a second,
+        what a recorder has raised, and what the world and the callbacks raise.
         """
         with self._watchdog:
             while (left := seconds - world.elapsed) > _MOMENT and not self._is_over():
@@ -198,6 +198,8 @@ class Driving:
     def _check(self, bus: NotingBus) -> None:
         if bus.intruder:
             raise BusyBusError(bus.intruder)
+        if bus.other_edition and (bus.played or bus.has_acted):
+            raise bus.other_edition
         if bus.failure:
             raise bus.failure
         if self._lasting_trouble(bus):

@@ -10,6 +10,7 @@ import can
 
 from typedcan.drive.frame_times import FrameTimes
 from typedcan.drive.in_order import InOrder
+from typedcan.model.editions import edition_of, signs_of_others, unsure_codes
 from typedcan.model.errors import TypedcanError
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.node.commanded import SentCommands
@@ -27,6 +28,21 @@ class EndedError(TypedcanError):
         super().__init__(f"{kind.NAME} would act, and is not sent: what acts was ended")
 
 
+class OtherEditionError(TypedcanError):
+    """Another edition than the chosen one is spoken on a bus: ``edition`` is its name.
+
+    The same code can mean the opposite there.
+    """
+
+    def __init__(self, edition: str, chosen: str, frame: can.Message) -> None:
+        self.edition = edition
+        number = f"0x{frame.arbitration_id:0{8 if frame.is_extended_id else 3}X}"
+        super().__init__(
+            f"edition {edition} is spoken on the bus: it alone has {number}; nothing that acts is"
+            f" sent as {chosen or 'the usual edition'} has it"
+        )
+
+
 class NotingBus(can.BusABC):
     """Stands for a bus that is lent; `shutdown` leaves it open.
 
@@ -40,6 +56,7 @@ class NotingBus(can.BusABC):
         The bus to send and receive on.
     codec
         Of the protocol that says which codes act; checksums of safe codes are by its algorithms.
+        Once another edition is recognised it is made unsure, see ``unsure`` of `Codec`.
     note
         Is told of each frame, received or sent, the latter with ``is_rx`` False, in the order of
         their times and in the thread that sends and receives. Once it raises it is told no more,
@@ -53,7 +70,8 @@ class NotingBus(can.BusABC):
 
     ``may_act`` is called before a code that acts is sent, and keeps it back by raising. ``latest``
     is the last frame of others, by identifier and whether that has 29 bits; none from before the
-    last code that acts.
+    last code that acts. ``other_edition`` is what is wrong where a message comes that only another
+    edition has than the chosen one: then no code that acts is sent any more.
     """
 
     def __init__(
@@ -72,7 +90,8 @@ class NotingBus(can.BusABC):
         self._times = FrameTimes(self._clock)
         self._record = InOrder(note)
         self._echoes = echoes or Echoes()
-        self._codec = codec
+        self._codec = codec = codec.bare
+        self._signs = signs_of_others(codec.protocol.model)
         # By identifier: what is matched by its PGN may be sent to several receivers.
         self._commands: dict[Identifier, SentCommands] = {}
         self._acting = frozenset(kind for kind in codec.protocol.messages if acting_fields(kind))
@@ -86,6 +105,7 @@ class NotingBus(can.BusABC):
         self.commanded_at = -math.inf
         """When the bus took the last message that can act, by the clock."""
         self.intruder: type[Message] | None = None
+        self.other_edition: OtherEditionError | None = None
         self.channel_info = bus.channel_info
         super().__init__(channel=bus.channel_info)
 
@@ -114,6 +134,8 @@ class NotingBus(can.BusABC):
         moves = acts(command)
         if moves:
             self.may_act()
+            if self.other_edition:
+                raise self.other_edition
             if self.has_ended:
                 raise EndedError(type(command))
         commands = self._commands.setdefault(identifier_of(msg), SentCommands())
@@ -216,12 +238,22 @@ class NotingBus(can.BusABC):
             self._echoes.heard_all(self._clock.now())
             return None, False
         self.latest[identifier_of(frame)] = frame
+        if identifier_of(frame) in self._signs:
+            self._doubt(frame)
         kind = self._codec.kind(frame.arbitration_id, extended=frame.is_extended_id)
         self.intruder = kind if kind in self.played else self.intruder
         received = copy(frame)
         received.is_rx = True
         self._record.take(received, self._times.received(frame))
         return frame, False
+
+    def _doubt(self, frame: can.Message) -> None:
+        """Take it that the edition that alone has a frame is spoken, and no longer the chosen."""
+        protocol = self._codec.protocol.model
+        if self.other_edition is None:
+            edition, chosen = self._signs[identifier_of(frame)], edition_of(protocol)
+            self._codec.unsure = unsure_codes(protocol)
+            self.other_edition = OtherEditionError(edition, chosen, frame)
 
     def shutdown(self) -> None:
         """Tell of what still waits; the bus stays open."""

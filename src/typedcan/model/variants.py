@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from difflib import get_close_matches
 from typing import Any
 
@@ -44,6 +45,8 @@ def choose(protocol: Protocol, names: Iterable[str]) -> Protocol:
     chosen = tuple(dict.fromkeys(names))
     if not chosen:
         return protocol
+    if protocol.chosen:
+        raise ReadError(f"{protocol.name} is {protocol.chosen} already: choose all at once")
     facts, usual = _facts(protocol), _facts(protocol)
     made: dict[str, tuple[str, Any]] = {}
     for each in _in_order(protocol, chosen):
@@ -59,7 +62,8 @@ def choose(protocol: Protocol, names: Iterable[str]) -> Protocol:
     numbers = [erratum.id for erratum in protocol.errata]
     facts.get(_MARKS, []).sort(key=lambda each: _place(numbers, erratum_of(protocol, each["id"])))
     facts["chosen"] = "+".join(chosen)
-    return from_plain(facts, f"{protocol.name} {facts['chosen']}")
+    other = from_plain(facts, f"{protocol.name} {facts['chosen']}")
+    return replace(other, variants=protocol.variants)  # for who asks what others may speak
 
 
 def variant(protocol: Protocol, name: str) -> Variant:

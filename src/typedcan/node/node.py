@@ -15,8 +15,7 @@ from typedcan.node.engine import Engine, Leave
 from typedcan.node.errors import RequestError
 from typedcan.node.request import Pending
 from typedcan.node.running import Running
-from typedcan.spoken.codec import SpokenCodec
-from typedcan.spoken.words import Same
+from typedcan.spoken.codec import words_of
 from typedcan.supervise import State, Supervisor
 from typedcan.supervise.snapshot import Snapshot
 from typedcan.transfer import Transfers
@@ -96,9 +95,9 @@ class Node(Running):
         self.name = name
         self.clock: Clock = clock or SystemClock()
         codec = codec or Codec(protocol)
-        self._words = Same()
-        if isinstance(codec, SpokenCodec):  # all within goes by what is on the bus
-            self._words, codec, protocol = codec.words, codec.bare, codec.protocol
+        self._words = words_of(codec)
+        if codec.bare is not codec:  # all within goes by what is on the bus
+            codec, protocol = codec.bare, codec.protocol
         self._requests = protocol.requests
         kind = self._words.kind
         supervisor = Supervisor(
@@ -219,12 +218,12 @@ class Node(Running):
 
     def last(self, kind: type[MessageT]) -> Received[MessageT] | None:
         """The message of a kind that came last, if any."""
-        received: Received[Any] | None = self._inbox.last(self._words.kind(kind))
+        received: Received[Any] | None = self._inbox.last(self._words.wanted(kind))
         return self._words.received(received) if received else None
 
     def state(self, kind: type[Message]) -> State:
         """How regularly a message comes in."""
-        return self._inbox.state(self._words.kind(kind))
+        return self._inbox.state(self._words.wanted(kind))
 
     def snapshot(self) -> Snapshot:
         """What supervision knows at this moment."""

@@ -10,7 +10,7 @@ import can
 from typedcan.dynamic import typed_protocol
 from typedcan.model.checksums.registry import Given
 from typedcan.model.variants import choose
-from typedcan.spoken.words import Words
+from typedcan.spoken.words import Same, Words
 from typedcan.wire.codec import Codec
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
@@ -112,3 +112,8 @@ class SpokenCodec(Codec):
     def _hearing(self, decode: Callable[[bytes], Message]) -> Callable[[bytes], Message]:
         hear = self.words.heard
         return lambda data: hear(decode(data))
+
+
+def words_of(codec: Codec) -> Same:
+    """What turns messages of a program into what a codec speaks, and back."""
+    return codec.words if isinstance(codec, SpokenCodec) else Same()

@@ -15,12 +15,16 @@ _UNKNOWN = object()
 """Stands for a meaning that the other side has no code for."""
 
 
-def to_edition(field: Field, other: Field, message: str, name: str) -> Convert:
+def to_edition(
+    field: Field, other: Field, message: str, name: str, *, strict: bool = True
+) -> Convert:
     """What turns a value of an own field into one of the field that the edition has for it.
 
-    It raises `EncodeError` for what the edition, called ``name``, cannot say.
+    It raises `EncodeError` for what the edition, called ``name``, cannot say; where it is not
+    ``strict`` that is invalid if there is a code for it.
     """
     codes = _codes(field, other)
+    instead = _UNKNOWN if strict else _state(other, SignalState.INVALID)
 
     def say(value: Any) -> Any:
         if isinstance(field, LabelledField):
@@ -30,6 +34,7 @@ def to_edition(field: Field, other: Field, message: str, name: str) -> Convert:
             said = _state(other, value)
         else:
             said = _number(other, value)
+        said = instead if said is _UNKNOWN else said
         if said is _UNKNOWN:
             problem = f"{name} has no code for {field.text(value)}"
             raise EncodeError(message, field.name, value, problem)

@@ -27,8 +27,20 @@ class Same:
         """The class as it is spoken."""
         return kind
 
+    def own(self, kind: type[Message]) -> type[Message]:
+        """The class of the program for one that is spoken; that one where there is none."""
+        return kind
+
+    def has(self, kind: type[Message]) -> bool:  # noqa: ARG002 - here all is had
+        """Whether there is such a message in what is spoken."""
+        return True
+
     def said(self, message: Message) -> Message:
         """The message as it is spoken."""
+        return message
+
+    def gist(self, message: Message) -> Message:
+        """The message as far as it can be spoken."""
         return message
 
     def heard(self, message: Message) -> Message:
@@ -53,7 +65,7 @@ class Same:
         """What to call back with, and what is called."""
         return kind, callback
 
-    def wanted(self, kind: type[Any] | None) -> type[Any] | None:
+    def wanted(self, kind: Any) -> Any:
         """The class of what is wanted, be it a message, as it is spoken, or an event."""
         return kind
 
@@ -85,7 +97,7 @@ class Words(Same):
                 self._spoken[kind] = found
         self._own = {spoken: own for own, spoken in self._spoken.items()}
         self._edition = frozenset(edition.messages)
-        self._say: dict[type[Message], Callable[[Message], Message]] = {}
+        self._say: dict[tuple[type[Message], bool], Callable[[Message], Message]] = {}
         self._hear: dict[type[Message], Callable[[Message], Message]] = {}
 
     def kind(self, kind: type[Message]) -> type[Message]:
@@ -100,14 +112,29 @@ class Words(Same):
         """The own class for one of the edition; that one where there is none."""
         return self._own.get(kind, kind)
 
+    def has(self, kind: type[Message]) -> bool:
+        """Whether the edition has such a message."""
+        return kind in self._spoken or kind in self._edition
+
     def said(self, message: Message) -> Message:
         """The message as the edition has it."""
+        return self._said(message, strict=True)
+
+    def gist(self, message: Message) -> Message:
+        """The message as far as the edition has it.
+
+        What there is no signal for is left out, what there is no code for is invalid, if it can be.
+        """
+        return self._said(message, strict=False)
+
+    def _said(self, message: Message, *, strict: bool) -> Message:
         kind = type(message)
         if kind in self._edition:
             return message
-        if kind not in self._say:
-            self._say[kind] = _saying(kind, self.kind(kind), self._name)
-        return self._say[kind](message)
+        if (kind, strict) not in self._say:
+            made = _saying(kind, self.kind(kind), self._name, strict=strict)
+            self._say[kind, strict] = made
+        return self._say[kind, strict](message)
 
     def heard(self, message: Message) -> Message:
         """The message of the edition in the own class, if there is one."""
@@ -146,12 +173,11 @@ class Words(Same):
         self, kind: type[Any], callback: Callable[[Any], object]
     ) -> tuple[type[Any], Callable[[Any], object]]:
         """What to call back with, and what is called."""
-        wanted = self.kind(kind) if issubclass(kind, Message) else kind
-        return wanted, lambda event: callback(self.event(event))
+        return self.wanted(kind), lambda event: callback(self.event(event))
 
-    def wanted(self, kind: type[Any] | None) -> type[Any] | None:
+    def wanted(self, kind: Any) -> Any:
         """The class of what is wanted, be it a message, as it is spoken, or an event."""
-        return self.kind(kind) if kind and issubclass(kind, Message) else kind
+        return self._spoken.get(kind, kind)
 
     async def _events(self, events: AsyncGenerator[Any, None]) -> AsyncGenerator[Any, None]:
         async with aclosing(events):
@@ -167,13 +193,18 @@ def _by_signal(kind: type[Message]) -> dict[str, Field]:
     return {field.dbc_name: field for field in kind.FIELDS.values()}
 
 
-def _saying(own: type[Message], edition: type[Message], name: str) -> Callable[[Message], Message]:
+def _saying(
+    own: type[Message], edition: type[Message], name: str, *, strict: bool
+) -> Callable[[Message], Message]:
     """What says a message of the own class in the class of the edition."""
     theirs, parts = _by_signal(edition), list[tuple[str, str, Convert]]()
     for signal, field in _by_signal(own).items():
         other = theirs.pop(signal, None)
-        convert = to_edition(field, other, own.NAME, name) if other else _nothing(field, own, name)
-        parts.append((field.name, other.name if other else "", convert))
+        if other:
+            convert = to_edition(field, other, own.NAME, name, strict=strict)
+            parts.append((field.name, other.name, convert))
+        elif strict:
+            parts.append((field.name, "", _nothing(field, own, name)))
     needed = [field for field in theirs.values() if _defaults(edition)[field.name] is MISSING]
     # What stands for no value would act.
     given = {field.name: field.acting.safe for field in needed if field.acting}

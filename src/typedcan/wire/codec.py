@@ -10,6 +10,7 @@ from typing import Any, overload
 import can
 
 from typedcan.model.checksums.registry import Given
+from typedcan.model.editions import edition_of, unsure_codes
 from typedcan.model.j1939 import sent_identifier
 from typedcan.model.protocol import FD_LENGTHS, LONGEST_CLASSIC
 from typedcan.model.seal import seals_of
@@ -44,6 +45,9 @@ class Codec:
         Whether generated functions may move the bits, which do the same as cantools' formats: the
         generator has held them against each other.
 
+    ``unsure`` has what stands in for safe codes that editions disagree about, none where one was
+    chosen: see `unsure_codes`.
+
     Raises
     ------
     AlgorithmError
@@ -60,6 +64,7 @@ class Codec:
         self.protocol = protocol
         self._seals = seals_of(protocol.model.messages, algorithms or {})
         self._accelerated = accelerated
+        self.unsure = {} if edition_of(protocol.model) else unsure_codes(protocol.model)
         self._writers: dict[type[Message], Writer] = {}
 
     @cached_property
@@ -130,7 +135,8 @@ class Codec:
         whatever the message has. Raises `EncodeError` for a value that cannot be sent.
         """
         writer = self._writers.get(type(message)) or self._writer(type(message))
-        return writer.payload(message, counter, renew=renew, safe=safe)
+        instead = self.unsure.get(message.NAME, {}) if safe else None
+        return writer.payload(message, counter, renew=renew, safe=instead)
 
     def _writer(self, kind: type[Message]) -> Writer:
         entry = self.reader(kind).entry

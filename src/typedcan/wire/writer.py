@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from typedcan.model.seal import Seal
 from typedcan.wire.acting import safe_codes
 from typedcan.wire.database import Entry
@@ -40,9 +42,9 @@ class Writer:
         counter: int | None = None,
         *,
         renew: bool = False,
-        safe: bool = False,
+        safe: Mapping[str, int] | None = None,
     ) -> bytes:
-        """The payload; see `typedcan.wire.codec.Codec.encode`."""
+        """The payload; ``safe`` is what stands in for safe codes; see `Codec.encode`."""
         checksum = self._checksum
         given = checksum is not None and getattr(message, checksum.name) is not None
         if self._counter is None:
@@ -54,17 +56,25 @@ class Writer:
             raise EncodeError(kind.NAME, self._counter.name, counter, problem)
         renewed = given and renew
         straight = self._straight
-        if straight and not (safe or renewed):
+        if straight and safe is None and not renewed:
             data = straight(message, counter)
         else:
             data = self._packed(message, counter, renewed=renewed, safe=safe)
         return data if checksum is None or (given and not renew) else self._sealed(data)
 
-    def _packed(self, message: Message, counter: int | None, *, renewed: bool, safe: bool) -> bytes:
+    def _packed(
+        self,
+        message: Message,
+        counter: int | None,
+        *,
+        renewed: bool,
+        safe: Mapping[str, int] | None,
+    ) -> bytes:
         """The payload by cantools' formats, without a checksum that is to be made anew."""
         raw = message.to_raw()
-        if safe:
+        if safe is not None:
             raw.update(safe_codes(type(message)))
+            raw.update(safe)
         if counter is not None and self._counter:
             raw[self._counter.dbc_name] = counter
         if renewed and self._checksum:
