@@ -195,7 +195,7 @@ def test_what_takes_several_frames_is_named(
 def test_decode_says_from_where_a_message_came(capsys: pytest.CaptureFixture[str]) -> None:
     assert program.main(["--dbc", str(TRUCK), "decode", str(LOG)]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[2:5] for line in lines] == [
+    assert [line.split()[5:8] for line in lines] == [
         ["CCVS1", "from", source] for source in ("0x00", "0x03", "0xFE")
     ]
     assert program.main(["--dbc", str(TRUCK), "decode", str(LOG), "--json"]) == 0
