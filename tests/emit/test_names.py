@@ -20,6 +20,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from dbcspec.artifacts import foreign_artifacts
+from dbcspec.emit.long_names import with_dbc_names
 from dbcspec.emit.stub_names import TAKEN, package_name
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.read.doors import open_side
@@ -257,3 +258,18 @@ def test_a_range_of_nothing_is_none_however_it_is_written() -> None:
     protocol = open_side(str(CASES / "zero.dbc")).protocol
     limits: dict[str, Any] = {sig.name: (sig.minimum, sig.maximum) for _, sig in protocol.signals()}
     assert limits == {"Pxx": (0, 255), "Qxx": (0, 255)}
+
+
+@pytest.mark.parametrize(
+    "name", ["M", "m", "INT", "HEX", "FLOAT", "ENUM", "STRING", "CAT_x", "BA_x"]
+)
+def test_names_that_readers_accept_stay_what_they_are(name: str) -> None:
+    message = Message(name=name, frame_id=1, length=8, sender="")
+    (kept,) = with_dbc_names(Protocol(name="x", messages=(message,))).messages
+    assert kept.name == name
+
+
+def test_keywords_that_no_reader_takes_for_names_become_others() -> None:
+    message = Message(name="BO_", frame_id=1, length=8, sender="")
+    (renamed,) = with_dbc_names(Protocol(name="x", messages=(message,))).messages
+    assert renamed.name == "_BO_"

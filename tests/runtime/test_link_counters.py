@@ -8,8 +8,10 @@ import can
 import pytest
 from runtime.frames import frame, life, live, st1
 
-from swapcan import Counts, Fault, Link, SignalState
-from swapcan.messages import B2V_ST1, BMS_TMS_0, BSU_BMS_0, BmsState
+from swapcan import PROTOCOL, Counts, Fault, Link, SignalState
+from swapcan.messages import B2V_ST1, B2V_ST2, BMS_TMS_0, BSU_BMS_0, BmsState
+from typedcan.wire.codec import Codec
+from typedcan.wire.link import Link as BareLink
 
 
 def counter_faults(link: Link, count: int) -> list[str]:
@@ -92,3 +94,8 @@ def test_a_frame_with_a_wrong_checksum_does_not_move_the_counter(
     for each in (st1(3), broken, st1(4)):
         far.send(each)
     assert [link.receive().faults for _ in range(2)] == [(), ()]
+
+
+def test_a_protocol_stands_for_its_own_codec(near: can.BusABC) -> None:
+    sent = BareLink(near, PROTOCOL).send(B2V_ST2(soc=80.0))
+    assert sent.data == BareLink(near, Codec(PROTOCOL)).send(B2V_ST2(soc=80.0)).data

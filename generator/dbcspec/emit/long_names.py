@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from typedcan.model.naming import LONGEST_NAME, is_dbc_word, unused
+from typedcan.model.naming import LONGEST_NAME, is_dbc_keyword, unused
 from typedcan.model.protocol import Message, Protocol, Signal
 
 
@@ -83,11 +83,11 @@ def _signal(
 
 def _plain_names(names: Iterable[str]) -> dict[str, str]:
     every = dict.fromkeys(names)
-    plain = {name: name for name in every if _PLAIN.fullmatch(name) and not is_dbc_word(name)}
+    plain = {name: name for name in every if _PLAIN.fullmatch(name) and not is_dbc_keyword(name)}
     for name in every:
         if name not in plain:
             other = re.sub(r"\W", "_", name, flags=re.ASCII) or "_"
-            other = f"_{other}" if other[0].isdigit() or is_dbc_word(other) else other
+            other = f"_{other}" if other[0].isdigit() or is_dbc_keyword(other) else other
             plain[name] = unused(other, plain.values())
     return plain
 

@@ -100,6 +100,8 @@ class Choice:
             if rule.id not in self.skip and (not self.only or rule.id in self.only)
         )
         if not left:
+            if not self.rules and not more:
+                raise CommandError("the database has nothing that a log could be judged by")
             raise CommandError("--only and --skip leave no rule to judge by")
         return left
 

@@ -15,6 +15,17 @@ _DBC_KEYWORD = re.compile(
     r"VERSION|NS_|BS_|BU_|BO_|SG_|CM_|VAL_|VAL_TABLE_|EV_|SIG_\w*|BA_\w*|CAT_\w*|FILTER|NS_DESC_"
 )
 
+_DBC_KEYWORDS = frozenset(
+    {
+        *("VERSION", "NS_", "NS_DESC_", "BS_", "BU_", "BO_", "SG_", "CM_", "VAL_", "VAL_TABLE_"),
+        *("EV_", "ENVVAR_DATA_", "EV_DATA_", "FILTER", "CAT_", "CAT_DEF_", "SG_MUL_VAL_"),
+        *("BA_", "BA_DEF_", "BA_DEF_DEF_", "BA_DEF_SGTYPE_", "BA_SGTYPE_", "BA_REL_"),
+        *("BA_DEF_REL_", "BA_DEF_DEF_REL_", "SIG_GROUP_", "SIG_VALTYPE_", "SIGTYPE_VALTYPE_"),
+        *("SIG_TYPE_REF_", "SGTYPE_", "SGTYPE_VAL_", "BO_TX_BU_"),
+        *("BU_SG_REL_", "BU_EV_REL_", "BU_BO_REL_"),
+    }
+)
+
 _NO_FIELDS = frozenset(
     {
         *keyword.kwlist,
@@ -35,6 +46,11 @@ def name_fault(name: str) -> str | None:
     if is_dbc_word(name):
         return "is a word of the DBC language"
     return None
+
+
+def is_dbc_keyword(name: str) -> bool:
+    """Whether no reader of DBC files would take it for a name."""
+    return name in _DBC_KEYWORDS
 
 
 def is_dbc_word(name: str) -> bool:

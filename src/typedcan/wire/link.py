@@ -18,6 +18,7 @@ from typedcan.wire.codec import Codec
 from typedcan.wire.errors import ReceiveTimeoutError
 from typedcan.wire.message import Message, MessageT
 from typedcan.wire.protect import SendCounters
+from typedcan.wire.protocol import Protocol
 from typedcan.wire.receiver import Counts, Fault, FaultKind, Received, Receiver
 
 __all__ = ["Counts", "Fault", "FaultKind", "Link", "Received", "Receiver"]
@@ -40,7 +41,7 @@ class Link:
     bus
         Any bus of python-can; it is neither configured nor closed here.
     codec
-        For checksum algorithms of one's own.
+        The protocol's, or one with checksum algorithms of one's own; a protocol stands for its own.
     on_fault
         Is called with each `Fault` of a received frame, before `receive` goes on.
     source_address
@@ -51,13 +52,13 @@ class Link:
     def __init__(
         self,
         bus: can.BusABC,
-        codec: Codec,
+        codec: Codec | Protocol,
         *,
         on_fault: Callable[[Fault], None] | None = None,
         source_address: int | None = None,
     ) -> None:
         self._bus = bus
-        self._codec = codec
+        self._codec = Codec(codec) if isinstance(codec, Protocol) else codec
         self._on_fault = on_fault
         self._source_address = source_address
         self._sent = SendCounters()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -130,11 +130,26 @@ def _sink(target: Target, draft: Path, schemas: dict[str, pa.Schema]) -> Sink:
     if target.suffix == _MF4:
         return Mf4File(draft)
     if target.folder:
-        return Files(_TABLES[target.suffix], lambda name: draft / f"{name}{target.suffix}")
+        names = file_names(schemas)
+        return Files(_TABLES[target.suffix], lambda name: draft / f"{names[name]}{target.suffix}")
     files = Files(_TABLES[target.suffix], lambda _: draft)
     for name, schema in schemas.items():
         files.open(name, schema)
     return files
+
+
+def file_names(tables: Iterable[str]) -> dict[str, str]:
+    """What the files of tables are called: no two alike where case does not count in names."""
+    names: dict[str, str] = {}
+    taken: set[str] = set()
+    for table in tables:
+        name, number = table, 1
+        while name.casefold() in taken:
+            number += 1
+            name = f"{table}_{number}"
+        taken.add(name.casefold())
+        names[table] = name
+    return names
 
 
 def _check(target: Target, *, force: bool) -> None:
