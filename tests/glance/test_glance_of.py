@@ -28,7 +28,7 @@ def chinese(tmp_path: Path) -> Codec:
     path = tmp_path / "chinese.dbc"
     text = CHINESE.read_text("utf-8").replace('"Closed"', '"闭合"')
     path.write_text(text.replace('"HV closed"', '"on\x1b[2J"'), "utf-8")
-    return Codec(TOOL.protocol(Namespace(dbc=path)))
+    return Codec(TOOL.protocol(Namespace(dbc=path, edition=None, reading=[])))
 
 
 def test_other_protocols_have_none() -> None:

@@ -62,7 +62,7 @@ def codec_of(options: argparse.Namespace) -> Codec:
     Raises `CommandError`, `ReadError` and `AlgorithmError` for what there is not.
     """
     chosen_model(PROTOCOL.model, options)
-    return codec_for(options.edition or "", options.readings, algorithms_of(options))
+    return codec_for(options.edition or "", options.reading, algorithms_of(options))
 
 
 TOOL = Tool(

@@ -111,7 +111,6 @@ def add_choice_options(parser: argparse._ActionsContainer) -> None:
     """Add --reading and --edition."""
     parser.add_argument(
         "--reading",
-        dest="readings",
         action="append",
         default=[],
         metavar="ID",
@@ -127,14 +126,14 @@ def add_choice_options(parser: argparse._ActionsContainer) -> None:
 
 def chosen(options: argparse.Namespace) -> tuple[str, ...]:
     """The edition and the readings that the options name, as `choose` takes them."""
-    return (*([options.edition] if options.edition else []), *options.readings)
+    return (*([options.edition] if options.edition else []), *options.reading)
 
 
 def chosen_model(own: model.Protocol, options: argparse.Namespace) -> model.Protocol:
     """The protocol in what the options choose; raises `CommandError`, and `ReadError`."""
     protocol = choose(own, chosen(options))
     editions = {each.name for each in own.variants if each.is_edition}
-    for name in options.readings:
+    for name in options.reading:
         if name in editions:
             raise CommandError(f"{name} is an edition, not a reading: --edition {name} chooses it")
     if options.edition and options.edition not in editions:
