@@ -16,6 +16,7 @@ _EXAMPLES = """examples:
   dbcspec generate                       write the DBC files, stubs and schemas of the spec
   dbcspec check                          in CI: exit 1 where a generated file is not current
   dbcspec lint supplier.dbc              faults in a file, whoever wrote it
+  dbcspec explain signals-overlap        what a rule looks for, with an example
   dbcspec compare spec dbc/vehicle.dbc   does the DBC say what the spec says
   dbcspec compare HEAD~3:spec spec --fail-on wire --format markdown
   dbcspec matrix export                  the Excel CAN matrix
@@ -35,7 +36,12 @@ def _failed(error: Exception) -> int | None:
         for line in error.lines:
             print_remark(line)
         return 2 if isinstance(error, SpecError) else 1
-    if isinstance(error, ModuleNotFoundError) and error.name in ("yaml", "jinja2", "openpyxl"):
+    if isinstance(error, ModuleNotFoundError) and error.name in (
+        "yaml",
+        "jinja2",
+        "openpyxl",
+        "pint",
+    ):
         note(f"{error.name} is not installed; pip install 'swapcan[generator]' brings it")
         return 2
     return None

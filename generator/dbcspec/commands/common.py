@@ -79,7 +79,8 @@ def given_algorithms(options: argparse.Namespace, protocol: Protocol) -> Given:
 def load_sound_project(options: argparse.Namespace, choice: str = "") -> Project:
     """The project, if the linter has nothing against it; raises `FindingsError`."""
     project = load_project(options, choice)
-    if findings := project.findings(given_algorithms(options, project.protocol)):
+    every = project.findings(given_algorithms(options, project.protocol))
+    if findings := [each for each in every if each.level != "note"]:
         raise FindingsError(findings)
     return project
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
 
 from dbcspec.artifacts import put_in_place
@@ -18,16 +19,17 @@ from dbcspec.commands.common import (
     report_options,
 )
 from dbcspec.compare.run import RULES as PROMISES
-from dbcspec.config import read_lint_config, selected
+from dbcspec.config import find_config, read_lint_config, selected
 from dbcspec.fix import fix_bytes, raw_text
 from dbcspec.lint.items import rule_infos, to_items
-from dbcspec.lint.options import Options
+from dbcspec.lint.options import FOREIGN, HOUSE, Options
 from dbcspec.lint.rule import Subject
 from dbcspec.lint.run import lint_with
-from dbcspec.read.doors import open_side
+from dbcspec.lint.waiver_used import RULE as WAIVER_USED
+from dbcspec.read.doors import MATRIX, open_side
 from typedcan.databases.encoding import read_encoded
 from typedcan.model.errors import ReadError
-from typedcan.report.item import Report
+from typedcan.report.item import LINT_LEVELS, Report
 from typedcan.report.rules import print_rules
 from typedcan.shell.algorithms import add_algorithm_option
 from typedcan.shell.console import say_text
@@ -44,6 +46,18 @@ def add(commands: Commands) -> None:
     lint.add_argument("--config", type=Path, help="TOML file with select, ignore and waivers")
     lint.add_argument(
         "--select", metavar="RULES", help="rules to run, with commas between; ALL, DEFAULT"
+    )
+    lint.add_argument(
+        "--profile",
+        choices=(HOUSE, FOREIGN),
+        help="house: what we ask of our own files; foreign: what is wrong in anybody's (default: "
+        "foreign for files that are not a project's)",
+    )
+    lint.add_argument(
+        "--fail-on",
+        choices=LINT_LEVELS,
+        default="warning",
+        help="exit 1 from this level on (default: warning)",
     )
     lint.add_argument("--encoding", help="of TARGET, where it is not to be found out")
     lint.add_argument("--fix", action="store_true", help="mend a DBC file where that is certain")
@@ -62,8 +76,8 @@ def _lint(options: argparse.Namespace) -> int:
     if options.fix:
         _fix(options)
     if options.target:
-        found = Options()
-        side = open_side(options.target, encoding=options.encoding)
+        side = open_side(options.target, encoding=options.encoding, wide=True)
+        found = _usual(Path(options.target), is_spec=side.spec is not None)
         subject = Subject(
             protocol=side.protocol,
             spec=side.spec,
@@ -80,11 +94,28 @@ def _lint(options: argparse.Namespace) -> int:
         title = project.config.spec
     if options.config:
         found = read_lint_config(options.config)
+    if options.profile:
+        found = found.under(options.profile)
     if options.select:
         found = selected(found, options.select.split(","))
     items = to_items(lint_with(subject, found))
     print_report(options, Report(title=title, items=items, rules=rule_infos()))
-    return 1 if items else 0
+    failing = LINT_LEVELS[: LINT_LEVELS.index(options.fail_on) + 1]
+    return 1 if any(item.level in failing for item in items) else 0
+
+
+def _usual(target: Path, *, is_spec: bool) -> Options:
+    """What is asked of a file unless the user says: of what a project generates, what it asks."""
+    if is_spec or target.suffix.lower() == MATRIX:
+        return Options()
+    try:
+        config = find_config(target.resolve().parent)
+    except (OSError, ReadError):
+        return Options().under(FOREIGN)
+    if not target.resolve().is_relative_to((config.root / config.dbc).resolve()):
+        return Options().under(FOREIGN)
+    # Most of the waivers are for the spec.
+    return dataclasses.replace(config.lint, ignore=(*config.lint.ignore, WAIVER_USED.id))
 
 
 def _dbc_text(path: Path, encoding: str | None) -> str | None:

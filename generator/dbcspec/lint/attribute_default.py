@@ -19,4 +19,9 @@ def _check(subject: Subject) -> Iterator[Found]:
         )
 
 
-RULE = Rule("attribute-default", "every attribute that a DBC file defines has a default", _check)
+RULE = Rule(
+    "attribute-default",
+    "every attribute that a DBC file defines has a default",
+    _check,
+    level="warning",
+)

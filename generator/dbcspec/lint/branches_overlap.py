@@ -24,5 +24,8 @@ def _check(subject: Subject) -> Iterator[Found]:
 
 
 RULE = Rule(
-    "branches-overlap", "multiplexed signals with a common selector have no common bit", _check
+    "branches-overlap",
+    "multiplexed signals with a common selector have no common bit",
+    _check,
+    foreign=True,
 )

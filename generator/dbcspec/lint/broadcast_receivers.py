@@ -31,4 +31,5 @@ RULE = Rule(
     "a J1939 message that is sent to all (PDU2) is not declared for one node",
     _check,
     default=False,
+    level="note",
 )

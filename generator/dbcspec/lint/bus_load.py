@@ -52,4 +52,4 @@ def _place(subject: Subject, bus: Bus) -> Location:
     return next((row.where_is("bit_rate") for row in rows if row.name == bus.name), NOWHERE)
 
 
-RULE = Rule("bus-load", "the periodic messages of a bus leave room on it", _check)
+RULE = Rule("bus-load", "the periodic messages of a bus leave room on it", _check, level="warning")

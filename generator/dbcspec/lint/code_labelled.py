@@ -46,4 +46,6 @@ def _unlabelled(signal: Signal) -> list[int]:
     return missing if 2 * len(missing) <= len(in_range) else []
 
 
-RULE = Rule("code-labelled", "an enumeration labels every raw value of its range", _check)
+RULE = Rule(
+    "code-labelled", "an enumeration labels every raw value of its range", _check, level="warning"
+)

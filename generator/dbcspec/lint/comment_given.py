@@ -35,4 +35,6 @@ def _is_described(part: Message | Signal) -> bool:
     return bool(part.english or part.title)
 
 
-RULE = Rule("comment-given", "every message and every signal has a comment", _check)
+RULE = Rule(
+    "comment-given", "every message and every signal has a comment", _check, level="warning"
+)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.j1939 import addresses, shown
+from dbcspec.lint.j1939 import addresses, has_addresses, shown
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
 from typedcan.model.j1939 import GLOBAL_ADDRESS, NULL_ADDRESS, destination
@@ -14,6 +14,8 @@ def _check(subject: Subject) -> Iterator[Found]:
     places = Places(subject)
     known = {node.name: addresses(node) for node in subject.protocol.nodes}
     for message in subject.protocol.messages:
+        if not has_addresses(message, subject):
+            continue
         heard_at = frozenset[int]().union(*(known.get(each, ()) for each in message.receivers))
         address = destination(message.frame_id)
         # Files for any receiver have the null address in their identifiers.
@@ -29,5 +31,9 @@ def _check(subject: Subject) -> Iterator[Found]:
 
 
 RULE = Rule(
-    "destination-address", "a J1939 message to one address is received by who has it", _check
+    "destination-address",
+    "a J1939 message to one address is received by who has it",
+    _check,
+    level="warning",
+    foreign=True,
 )

@@ -8,16 +8,13 @@ from dbcspec.lint.registry import ALL_RULES
 from dbcspec.lint.rule import Finding, Rule
 from typedcan.report.item import Item, RuleInfo
 
-LEVEL = "error"
-"""The level of every finding."""
-
 
 def to_items(findings: Iterable[Finding]) -> list[Item]:
     """The findings in their order, each in the group of its message."""
     return [
         Item(
             rule=finding.rule,
-            level=LEVEL,
+            level=finding.level,
             group=finding.message,
             subject=finding.subject,
             text=finding.text,
@@ -29,4 +26,4 @@ def to_items(findings: Iterable[Finding]) -> list[Item]:
 
 def rule_infos(rules: Iterable[Rule] = ALL_RULES) -> list[RuleInfo]:
     """The rules as reports describe them, in their order."""
-    return [RuleInfo(rule.id, rule.purpose, LEVEL) for rule in rules]
+    return [RuleInfo(rule.id, rule.purpose, rule.level) for rule in rules]

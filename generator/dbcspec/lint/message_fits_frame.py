@@ -30,4 +30,4 @@ def _carrier(message: Message) -> tuple[str, int]:
     return "a frame of classic CAN", LONGEST_CLASSIC
 
 
-RULE = Rule("message-fits-frame", "a frame can carry the bytes of a message", _check)
+RULE = Rule("message-fits-frame", "a frame can carry the bytes of a message", _check, foreign=True)

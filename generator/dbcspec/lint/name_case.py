@@ -24,4 +24,6 @@ def _check(subject: Subject) -> Iterator[Found]:
                 yield Found(named.where, named.name, text, named.message)
 
 
-RULE = Rule("name-case", "names that share a space differ in more than case", _check)
+RULE = Rule(
+    "name-case", "names that share a space differ in more than case", _check, level="warning"
+)

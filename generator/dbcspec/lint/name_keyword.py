@@ -66,4 +66,4 @@ def _language(name: str) -> str:
     return next((language for language, words in _LANGUAGES.items() if name in words), "")
 
 
-RULE = Rule("name-keyword", "no name is a word of Python, C or CAPL", _check)
+RULE = Rule("name-keyword", "no name is a word of Python, C or CAPL", _check, level="warning")

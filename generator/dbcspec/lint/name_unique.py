@@ -34,4 +34,6 @@ def _fields(message: Message, places: Places) -> Iterator[Found]:
             yield Found(places.layout(signal, "field"), signal.name, text, message.name)
 
 
-RULE = Rule("name-unique", "no two things that share a space of names have one name", _check)
+RULE = Rule(
+    "name-unique", "no two things that share a space of names have one name", _check, foreign=True
+)

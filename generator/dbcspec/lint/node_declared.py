@@ -25,7 +25,7 @@ def _check(subject: Subject) -> Iterator[Found]:
             text = f"{what} names {node}, which is no declared node{hint}: declare or correct it"
             yield Found(where, node, text, message)
     remedy = "give one of its signals a route" if subject.spec else "name the node that sends it"
-    for each in subject.protocol.messages:
+    for each in subject.protocol.messages if subject.settings.house else ():
         if not each.sender:
             text = f"{each.name} has no sender: {remedy}"
             yield Found(each.where, each.name, text, each.name)
@@ -61,4 +61,10 @@ def _in_model(protocol: Protocol) -> Iterator[_Mention]:
             yield NOWHERE, node, f"the bus {bus.name}", ""
 
 
-RULE = Rule("node-declared", "senders, receivers and bus members are declared nodes", _check)
+RULE = Rule(
+    "node-declared",
+    "senders, receivers and bus members are declared nodes",
+    _check,
+    level="warning",
+    foreign=True,
+)

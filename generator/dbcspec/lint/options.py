@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass, field
 
 from dbcspec.lint.registry import ALL_RULES
@@ -13,9 +14,13 @@ ALL = "ALL"
 DEFAULT = "DEFAULT"
 """In ``select`` and ``ignore``: the rules that run unasked."""
 
+HOUSE, FOREIGN = "house", "foreign"
+"""Profiles: what a project asks of its own files, and what is wrong in anybody's."""
+
 _GROUPS = {
     ALL: frozenset(rule.id for rule in ALL_RULES),
     DEFAULT: frozenset(rule.id for rule in ALL_RULES if rule.default),
+    FOREIGN.upper(): frozenset(rule.id for rule in ALL_RULES if rule.foreign),
 }
 
 
@@ -27,6 +32,15 @@ class Options:
     ignore: tuple[str, ...] = ()
     waivers: tuple[Waiver, ...] = ()
     settings: Settings = field(default_factory=Settings)
+
+    def under(self, profile: str) -> Options:
+        """The options with the rules and the measure of a profile."""
+        house = profile == HOUSE
+        return dataclasses.replace(
+            self,
+            select=(DEFAULT,) if house else (FOREIGN.upper(),),
+            settings=dataclasses.replace(self.settings, house=house),
+        )
 
     def rules(self) -> tuple[Rule, ...]:
         """The rules that are selected and not ignored, in the order of the registry."""

@@ -22,4 +22,9 @@ def _check(subject: Subject) -> Iterator[Found]:
             yield Found(places.message(message, "period"), message.name, text, message.name)
 
 
-RULE = Rule("period-given", "a message that is sent periodically has its cycle time", _check)
+RULE = Rule(
+    "period-given",
+    "a message that is sent periodically has its cycle time",
+    _check,
+    level="warning",
+)

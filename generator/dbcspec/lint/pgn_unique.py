@@ -36,5 +36,9 @@ def _check(subject: Subject) -> Iterator[Found]:
 
 
 RULE = Rule(
-    "pgn-unique", "no two J1939 messages have one parameter group number", _check, default=False
+    "pgn-unique",
+    "no two J1939 messages have one parameter group number",
+    _check,
+    default=False,
+    level="note",
 )

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from decimal import Decimal
 
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
 from typedcan.model.numbers import number
 from typedcan.model.protocol import Signal
 from typedcan.model.soundness import has_room
+
+_ROUNDED = Decimal("1e-6")
+"""The share of a limit that rounding to the digits of most tools may add."""
 
 
 def _check(subject: Subject) -> Iterator[Found]:
@@ -28,7 +32,9 @@ def _fault(signal: Signal) -> str | None:
     if signal.is_float or not signal.factor:
         return None
     low, high = sorted(raw * signal.factor + signal.offset for raw in signal.raw_limits)
-    if signal.minimum < low or signal.maximum > high:
+    # Of a limit as it is printed the last digit may be rounded.
+    near = max(abs(low), abs(high)) * _ROUNDED
+    if signal.minimum < low - near or signal.maximum > high + near:
         bits = "bit holds" if signal.length == 1 else "bits hold"
         return (
             f"the range {shown} is not within {number(low)}~{number(high)}, what {signal.length} "
@@ -37,4 +43,10 @@ def _fault(signal: Signal) -> str | None:
     return None
 
 
-RULE = Rule("range-fits-bits", "a signal's range is a range, and its bits can hold it", _check)
+RULE = Rule(
+    "range-fits-bits",
+    "a signal's range is a range, and its bits can hold it",
+    _check,
+    level="warning",
+    foreign=True,
+)

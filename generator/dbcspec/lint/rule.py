@@ -29,6 +29,8 @@ class Finding:
     subject: str
     text: str
     message: str = ""
+    level: str = "error"
+    """``error``, ``warning`` or ``note``."""
 
     def __str__(self) -> str:
         return f"{self.where}: {self.rule}: {self.text}"
@@ -53,11 +55,13 @@ class Settings:
     """What a project sets for the rules.
 
     ``bus_load`` is the most that periodic messages may take of a bus, in percent; ``units`` are
-    known units beside the usual ones.
+    known units beside the usual ones. ``house`` is what a project asks of its own files; without
+    it, as of files of others, rules hold only what is surely wrong to be wrong.
     """
 
     bus_load: float = 70.0
     units: frozenset[str] = frozenset()
+    house: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,12 +102,19 @@ Check = Callable[[Subject], Iterable[Found]]
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: its stable id, what it is for, its check, and whether it runs unasked."""
+    """A rule: its stable id, what it is for, and its check.
+
+    ``default`` says whether it runs unasked, ``foreign`` whether on files of others too. ``level``:
+    an ``error`` is read wrongly somewhere or cannot be carried, a ``warning`` contradicts itself or
+    falls short of what is demanded, a ``note`` is for knowing.
+    """
 
     id: str
     purpose: str
     check: Check
     default: bool = True
+    level: str = "error"
+    foreign: bool = False
 
     def findings(self, subject: Subject) -> list[Finding]:
         """All findings in a subject, in order of place."""
@@ -116,6 +127,7 @@ class Rule:
                 subject=found.subject,
                 text=found.text,
                 message=found.message or messages.get(found.subject, ""),
+                level=self.level,
             )
             for found in found_all
         )

@@ -29,5 +29,8 @@ def _check(subject: Subject) -> Iterator[Found]:
 
 
 RULE = Rule(
-    "signal-inside-message", "every bit of a signal lies in the bytes of its message", _check
+    "signal-inside-message",
+    "every bit of a signal lies in the bytes of its message",
+    _check,
+    foreign=True,
 )

@@ -23,4 +23,6 @@ def _check(subject: Subject) -> Iterator[Found]:
                 yield Found(where, signal.name, text, message.name)
 
 
-RULE = Rule("signal-readable", "each signal has a factor and a selector that is there", _check)
+RULE = Rule(
+    "signal-readable", "each signal has a factor and a selector that is there", _check, foreign=True
+)

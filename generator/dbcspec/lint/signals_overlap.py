@@ -25,4 +25,4 @@ def _check(subject: Subject) -> Iterator[Found]:
                 yield Found(places.layout(second, "start"), second.name, text, message.name)
 
 
-RULE = Rule("signals-overlap", "no bit of a frame belongs to two signals", _check)
+RULE = Rule("signals-overlap", "no bit of a frame belongs to two signals", _check, foreign=True)

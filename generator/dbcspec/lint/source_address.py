@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dbcspec.lint.j1939 import addresses, shown
+from dbcspec.lint.j1939 import addresses, has_addresses, shown
 from dbcspec.lint.places import Places
 from dbcspec.lint.rule import Found, Rule, Subject
 from typedcan.model.j1939 import NULL_ADDRESS, source_address
@@ -14,6 +14,8 @@ def _check(subject: Subject) -> Iterator[Found]:
     places = Places(subject)
     known = {node.name: addresses(node) for node in subject.protocol.nodes}
     for message in subject.protocol.messages:
+        if not has_addresses(message, subject):
+            continue
         own, source = known.get(message.sender), source_address(message.frame_id)
         # Files for any sender have the null address in their identifiers.
         if not own or not message.extended or source in own | {NULL_ADDRESS}:
@@ -27,4 +29,10 @@ def _check(subject: Subject) -> Iterator[Found]:
         yield Found(places.message(message, "id"), message.name, text, message.name)
 
 
-RULE = Rule("source-address", "a J1939 identifier ends in an address of the sender", _check)
+RULE = Rule(
+    "source-address",
+    "a J1939 identifier ends in an address of the sender",
+    _check,
+    level="warning",
+    foreign=True,
+)

@@ -28,4 +28,9 @@ def _foreign(text: str) -> str:
     return ""
 
 
-RULE = Rule("text-gbk", "texts that are not English are in GB2312, the safe part of GBK", _check)
+RULE = Rule(
+    "text-gbk",
+    "texts that are not English are in GB2312, the safe part of GBK",
+    _check,
+    level="warning",
+)

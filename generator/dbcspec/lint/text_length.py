@@ -44,4 +44,9 @@ def _pairs(labels: dict[int, str]) -> list[str]:
     return [f'{value} "{label}"' for value, label in labels.items()]
 
 
-RULE = Rule("text-length", "labels and value lines are as short as DBC readers want them", _check)
+RULE = Rule(
+    "text-length",
+    "labels and value lines are as short as DBC readers want them",
+    _check,
+    level="warning",
+)

@@ -29,4 +29,9 @@ def _hint(unit: str, extra: frozenset[str]) -> str:
     return f" (the closest is {close[0]})" if close else ""
 
 
-RULE = Rule("unit-known", "a unit is spelt as SI or the usage of the field spells it", _check)
+RULE = Rule(
+    "unit-known",
+    "a unit is spelt as SI or the usage of the field spells it",
+    _check,
+    level="warning",
+)

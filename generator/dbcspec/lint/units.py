@@ -1,8 +1,12 @@
-"""The units that signals usually have, and how they are put together."""
+"""The units that signals usually have, and how they are put together.
+
+What the table of the field does not know, Pint's does: units written out, and those of others.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import cache
 
 _PREFIXES = ("", "p", "n", "u", "µ", "μ", "m", "c", "d", "h", "k", "M", "G", "T")
@@ -17,6 +21,9 @@ _PLAIN = """
     cell cells tooth teeth cyl stroke arcmin arcsec
 """
 _SEPARATORS = re.compile(r"[/*·⋅. ]")
+_SHORTEST_WORD, _LONGEST_WORD = 5, 32
+"""Letters of a name that is written out, whose case means nothing."""
+
 _EXPONENT = re.compile(r"(?:\^?-?\d|[²³⁻¹]+)$")
 
 
@@ -25,6 +32,21 @@ def known_units() -> frozenset[str]:
     """All single units with all their prefixes."""
     prefixed = (f"{prefix}{unit}" for prefix in _PREFIXES for unit in _PREFIXED.split())
     return frozenset((*_PLAIN.split(), *prefixed))
+
+
+@cache
+def _library() -> Callable[[str], tuple[object, ...]]:
+    """What Pint takes a name for; imported for unusual units only: that takes half a second."""
+    from pint import UnitRegistry
+
+    registry: UnitRegistry[float] = UnitRegistry()
+    return registry.parse_unit_name
+
+
+def _is_in_library(name: str) -> bool:
+    """Whether Pint knows a unit by its symbol, or by its name in any case."""
+    names = (name, name.lower()) if len(name) >= _SHORTEST_WORD else (name,)
+    return any(map(_library(), names))
 
 
 def is_known(unit: str, extra: frozenset[str] = frozenset()) -> bool:
@@ -39,4 +61,7 @@ def is_known(unit: str, extra: frozenset[str] = frozenset()) -> bool:
 def _is_part(part: str, known: frozenset[str]) -> bool:
     """Whether it is a unit, perhaps behind a number and before an exponent."""
     unit = part.lstrip("0123456789")
-    return unit in known or _EXPONENT.sub("", unit) in known
+    bare = _EXPONENT.sub("", unit)
+    if unit in known or bare in known:
+        return True
+    return bare.isalpha() and len(bare) <= _LONGEST_WORD and _is_in_library(bare)

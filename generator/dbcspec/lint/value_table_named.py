@@ -53,4 +53,6 @@ def _shown(labels: dict[int, str], code: int) -> str:
     return repr(labels[code]) if code in labels else "unlabelled"
 
 
-RULE = Rule("value-table-named", "every value table has a name in standard.yaml", _check)
+RULE = Rule(
+    "value-table-named", "every value table has a name in standard.yaml", _check, level="warning"
+)

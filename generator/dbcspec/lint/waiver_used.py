@@ -13,4 +13,4 @@ def _check(subject: Subject) -> Iterator[Found]:
         yield Found(waiver.where, waiver.subject, text)
 
 
-RULE = Rule("waiver-used", "every waiver accepts at least one finding", _check)
+RULE = Rule("waiver-used", "every waiver accepts at least one finding", _check, level="warning")

@@ -35,27 +35,30 @@ class Side:
     errata_faults: tuple[Fault, ...] = ()
 
 
-def open_side(argument: str, *, encoding: str | None = None, cwd: Path | None = None) -> Side:
+def open_side(
+    argument: str, *, encoding: str | None = None, cwd: Path | None = None, wide: bool = False
+) -> Side:
     """Read a spec folder, a DBC, an .xlsx matrix or what else cantools reads.
 
     With ``revision:`` before it, the path is read as git has it; a path that exists goes first.
     After a spec folder ``@`` and an edition or readings choose those: ``spec@v4.6+E50b``.
     ``encoding`` is that of a text file, where it is not to be found out; relative paths start at
-    ``cwd``. Raises `ReadError`, and `SpecError` for a spec folder with faults.
+    ``cwd``. ``wide`` is for `typedcan.databases.dbc.read_any`.
+    Raises `ReadError`, and `SpecError` for a spec folder with faults.
     """
     here = cwd or Path.cwd()
     path = here / argument
     if not argument:
         raise ReadError("neither a file nor a spec folder is named")
     if _exists(path):
-        return _open(path, argument, encoding)
+        return _open(path, argument, encoding, wide=wide)
     argument, choice = _split_choice(argument, here)
     path = here / argument
     split = split_revision(argument) if not _exists(path) else None
     if split is None:
-        return _open(path, argument, encoding, choice)
+        return _open(path, argument, encoding, choice, wide=wide)
     with checked_out(*split, here) as found:
-        return _open(found, argument, encoding, choice)
+        return _open(found, argument, encoding, choice, wide=wide)
 
 
 def _split_choice(argument: str, here: Path) -> tuple[str, str]:
@@ -72,7 +75,9 @@ def _exists(path: Path) -> bool:
         return False
 
 
-def _open(path: Path, title: str, encoding: str | None, choice: str = "") -> Side:
+def _open(
+    path: Path, title: str, encoding: str | None, choice: str = "", *, wide: bool = False
+) -> Side:
     if _exists(path / "standard.yaml"):
         return _open_spec(path, title, choice)
     if choice and _exists(path):
@@ -86,7 +91,7 @@ def _open(path: Path, title: str, encoding: str | None, choice: str = "") -> Sid
     if path.suffix.lower() not in FORMATS:
         known = ", ".join((*FORMATS, MATRIX))
         raise ReadError(f"{title}: is neither a spec folder nor a file of a known kind ({known})")
-    return Side(protocol=read_any(path, encoding, shown_as=title), title=title)
+    return Side(protocol=read_any(path, encoding, shown_as=title, wide=wide), title=title)
 
 
 def _is_folder(path: Path) -> bool:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 import gc
 import logging
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -36,23 +37,23 @@ def read_dbc(
     shown_as: str | None = None,
     largest: int = LARGEST_FILE,
     labels: Labels | None = None,
+    wide: bool = False,
 ) -> Protocol:
     """Read a DBC file, sound or not: overlaps and signals outside their message are kept.
 
     Without ``encoding`` it is found out, see `typedcan.databases.encoding`. ``shown_as`` is what
     errors and locations call the file, ``largest`` the bytes it may have, ``labels`` which labels
-    mean that a code is no value. A range of [0|0] counts as not given. Of several senders the
-    first is kept. Raises `ReadError`.
+    mean that a code is no value. With ``wide`` an identifier of more than 11 bits, whose line does
+    not say that it has 29, is kept as one of 11, for the linter to find. A range of [0|0] counts as
+    not given. Of several senders the first is kept. Raises `ReadError`.
     """
     name = shown_as or str(path)
     with _collection_paused():
-        return _read_dbc(path, encoding, name, largest, labels or Labels())
+        text = read_text(path, encoding, shown_as=name, largest=largest)
+        return _read_dbc(DbcText(text, name, wide=wide), name, labels or Labels())
 
 
-def _read_dbc(
-    path: Path, encoding: str | None, name: str, largest: int, labels: Labels
-) -> Protocol:
-    source = DbcText(read_text(path, encoding, shown_as=name, largest=largest), name)
+def _read_dbc(source: DbcText, name: str, labels: Labels) -> Protocol:
     database = _load(f"{source.mended()}\n{_END}", "dbc", name)
     places = [
         Places(
@@ -63,7 +64,17 @@ def _read_dbc(
         for place in source.places
         if place.name != UNASSIGNED
     ]
-    return to_protocol(database, name, places, labels)
+    protocol = to_protocol(database, name, places, labels)
+    return _narrowed(protocol, source.unmarked) if source.unmarked else protocol
+
+
+def _narrowed(protocol: Protocol, identifiers: Set[int]) -> Protocol:
+    """The protocol with these identifiers as the file has them: with 11 bits."""
+    messages = (
+        dataclasses.replace(each, extended=False) if each.frame_id in identifiers else each
+        for each in protocol.messages
+    )
+    return dataclasses.replace(protocol, messages=tuple(messages))
 
 
 @contextmanager
@@ -88,6 +99,7 @@ def read_any(
     shown_as: str | None = None,
     largest: int = LARGEST_FILE,
     labels: Labels | None = None,
+    wide: bool = False,
 ) -> Protocol:
     """Read a file of any format in `FORMATS`, by the end of its name; see `read_dbc`.
 
@@ -99,7 +111,7 @@ def read_any(
         known = ", ".join(FORMATS)
         raise ReadError(f"{name}: cannot read {path.suffix or 'this'} files; known: {known}")
     if format_ == "dbc":
-        return read_dbc(path, encoding, shown_as=name, largest=largest, labels=labels)
+        return read_dbc(path, encoding, shown_as=name, largest=largest, labels=labels, wide=wide)
     text = read_text(path, encoding, shown_as=name, largest=largest)
     _refuse_large_numbers(text, format_, name)
     database = _load(text, format_, name)

@@ -43,6 +43,9 @@ _PLACED = re.compile(
     r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)(?:\s*\|\s*(\d+))?)?"
 )
 _OF_SIGNAL = re.compile(r"\b(?:VAL_|SIG_VALTYPE_)\s+(\d+)\s+(\w+)[^;]*;")
+_IDENTIFIER = re.compile(
+    r"\b(?:BO_|SG_|VAL_|SIG_VALTYPE_|SG_MUL_VAL_|BO_TX_BU_|SIG_GROUP_)\s+(\d{1,10})\b"
+)
 _DEFINITION = re.compile(r'\bBA_DEF_\s+(?:\w+_\s+)?("[^"]*")\s+(\w+)([^;]*);')
 _VALUE = re.compile(r'\bBA_\s+("[^"]*")[^;]*?("[^"]*")?\s*;')
 _SELECTORS = re.compile(r"\bSG_MUL_VAL_[^;]*;")
@@ -69,7 +72,7 @@ class MessagePlace:
 class DbcText:
     """The text of a DBC file; raises `ReadError` for what cannot be one."""
 
-    def __init__(self, text: str, name: str) -> None:
+    def __init__(self, text: str, name: str, *, wide: bool = False) -> None:
         self._text = text
         self._name = name
         self._starts = [match.end() for match in re.finditer("\n", text)]
@@ -78,6 +81,9 @@ class DbcText:
         self._bare = _QUOTED_OR_COMMENT.sub(self._blank, text)
         self._refuse_other_text()
         self._refuse_endless_selectors()
+        self.unmarked: set[int] = set()
+        """Identifiers of more than 11 bits that no mark says to have 29; with ``wide`` only."""
+        self._wide = wide
         self.places = self._find_places()
         """The messages in their order."""
 
@@ -88,11 +94,22 @@ class DbcText:
         """
         pieces: list[str] = []
         done = 0
-        for start, end, new in sorted([*self._orphans(), *self._attributes()]):
+        for start, end, new in sorted([*self._orphans(), *self._attributes(), *self._marked()]):
+            if start < done:  # in a statement that is left out
+                continue
             pieces += (self._text[done:start], new)
             done = end
         unfinished = UNFINISHED_CODES.search(self._text)
         return "".join((*pieces, self._text[done:], ";" if unfinished else ""))
+
+    def _marked(self) -> list[tuple[int, int, str]]:
+        """Identifiers marked as what they must be, for cantools to read them."""
+        found = _IDENTIFIER.finditer(self._bare) if self.unmarked else ()
+        return [
+            (match.start(1), match.end(1), str(int(match[1]) | 1 << 31))
+            for match in found
+            if int(match[1]) in self.unmarked
+        ]
 
     def _line(self, position: int) -> int:
         return bisect_right(self._starts, position) + 1
@@ -164,7 +181,9 @@ class DbcText:
         """The highest of 32 bits says that an identifier has 29 bits, not 11."""
         extended, identifier = divmod(int(message[1]), 1 << 31)
         bits = 29 if extended else 11
-        if message[2] != UNASSIGNED and (extended > 1 or identifier >> bits):
+        if self._wide and not extended and identifier >> bits and not identifier >> 29:
+            self.unmarked.add(identifier)
+        elif message[2] != UNASSIGNED and (extended > 1 or identifier >> bits):
             where = self._where(message.start())
             raise ReadError(f"{where}: {message[2]}: {message[1]} is no identifier of {bits} bits")
 

@@ -9,6 +9,8 @@ from typedcan.shell.printing import printable
 
 COMMANDS = {
     "error": "error",
+    "warning": "warning",
+    "note": "notice",
     "wire": "error",
     "source": "warning",
     "additive": "notice",

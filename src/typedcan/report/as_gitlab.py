@@ -11,6 +11,8 @@ from typedcan.report.texts import dump, sentence
 
 _SEVERITIES = {
     "error": "major",
+    "warning": "minor",
+    "note": "info",
     "wire": "critical",
     "source": "major",
     "additive": "minor",

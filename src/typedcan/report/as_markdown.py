@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from typedcan.report.item import Item, Report
+from typedcan.report.item import LINT_LEVELS, Item, Report
 from typedcan.report.texts import (
     WHOLE,
     broken,
@@ -48,7 +48,7 @@ def to_markdown(report: Report) -> str:
     )
     text = f"### {escaped(report.title)}\n\n**{summary}.**\n"
     groups = grouped(report.items)
-    compared = any(item.level != "error" for item in report.items)
+    compared = any(item.level not in LINT_LEVELS for item in report.items)
     shown = 0
     for group, items in groups.items():
         folded = len(report.items) > _MOST_OPEN

@@ -11,6 +11,8 @@ from typedcan.shell.printing import printable
 
 _LEVELS = {
     "error": "error",
+    "warning": "warning",
+    "note": "note",
     "wire": "error",
     "source": "warning",
     "additive": "note",

@@ -8,7 +8,15 @@ from typedcan.report.item import Item, Report
 from typedcan.report.texts import WHOLE, broken, casualties, counted, grouped, named, told
 from typedcan.shell.printing import printable
 
-_STYLES = {"error": "1;31", "wire": "1;31", "source": "33", "additive": "32", "cosmetic": "36"}
+_STYLES = {
+    "error": "1;31",
+    "warning": "33",
+    "note": "36",
+    "wire": "1;31",
+    "source": "33",
+    "additive": "32",
+    "cosmetic": "36",
+}
 _BOLD = "1"
 _DIM = "2"
 _LONGEST = 400

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 
 from typedcan.model.errors import Location
 
-LEVELS = ("error", "wire", "source", "additive", "cosmetic")
-"""From the gravest; lint findings are errors, those of a comparison have its classes."""
+LEVELS = ("error", "warning", "note", "wire", "source", "additive", "cosmetic")
+"""From the gravest; the first three are those of lint, the others classes of a comparison."""
+
+LINT_LEVELS = LEVELS[:3]
+"""Those of lint."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

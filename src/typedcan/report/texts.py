@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from typedcan.report.item import LEVELS, Item, Report
+from typedcan.report.item import LEVELS, LINT_LEVELS, Item, Report
 from typedcan.shell.printing import printable, printable_json
 
 WHOLE = "the protocol as a whole"
@@ -13,6 +13,8 @@ WHOLE = "the protocol as a whole"
 
 MEANINGS = {
     "error": "the specification contradicts itself or cannot be carried by its files",
+    "warning": "something contradicts itself, or falls short of what is demanded of such files",
+    "note": "nothing is wrong, but good to know",
     "wire": "the bits on the bus change their meaning: devices old and new misread each other",
     "source": "generated code changes its names or types: programs that use it must be adapted",
     "additive": "something new on the bus that devices of the old version do not know",
@@ -102,7 +104,7 @@ def sentence(item: Item, *, longest: int | None = None) -> str:
 
 def named(item: Item) -> str:
     """The subject with a colon, "" where the text names it: errors are whole sentences."""
-    return f"{printable(item.subject)}: " if item.subject and item.level != "error" else ""
+    return f"{printable(item.subject)}: " if item.subject and item.level not in LINT_LEVELS else ""
 
 
 def purposes(report: Report) -> dict[str, str]:
