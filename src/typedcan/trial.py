@@ -197,6 +197,7 @@ class _Trial:
             for fields in (there, filter(_is_rounded, there))
         )
         mine, right = (int.from_bytes(each, "little") for each in (sent, data))
+        mine ^= layout.filler(self._kind.MODEL)
         if (mine ^ right & mask) & ~rounded:
             return f"sent as {sent.hex()}"
         theirs = self._oracle.encoded(data)

@@ -17,6 +17,7 @@ from dbcspec.emit.stub_fields import (
 from dbcspec.emit.stub_names import StubNames
 from dbcspec.emit.templating import template
 from typedcan.model.kinds import Kind, enums
+from typedcan.model.layout import filler
 from typedcan.model.protocol import Message, Protocol
 from typedcan.model.serial import to_json
 
@@ -49,6 +50,7 @@ def emit_stubs(protocol: Protocol) -> dict[str, str]:
         "called": called,
         "head": _head,
         "names": names,
+        "filler": filler,
         "straight": [(message, fields) for message, fields in stubs if can_decode(message, fields)],
         "can_encode": can_encode,
         "decoding": decoding,

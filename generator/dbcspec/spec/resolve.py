@@ -25,7 +25,7 @@ from dbcspec.spec.schema import Record
 from dbcspec.spec.value_tables import ValueTables
 from typedcan.model import protocol as model
 from typedcan.model.acting import usual_start
-from typedcan.model.layout import float_limits
+from typedcan.model.layout import bits, float_limits
 from typedcan.model.naming import field_name, shared_prefix
 from typedcan.model.transfer import Transfer
 from typedcan.model.transfers.registry import usual_kind
@@ -152,7 +152,7 @@ class _Resolver:
             send_type=_SEND_TYPES[self._given(row, "type", row.type, "Event")],
             condition=self._conditions.get(row.name, ""),
             signals=signals,
-            reserved=tuple(self._reserved(row)),
+            reserved=(*self._reserved(row), *self._unassigned(row, signals)),
             reference=", ".join(
                 (row.annex or self._spec.messages.annex, *map(table_reference, tables))
             ),
@@ -173,6 +173,24 @@ class _Resolver:
                     value=(padding.reserved or 0) if padding else 0,
                     reference=", ".join(filter(None, cited)),
                 )
+
+    def _unassigned(
+        self, row: MessageRow, signals: tuple[model.Signal, ...]
+    ) -> Iterator[model.ReservedBits]:
+        """Bits that no field names, where they are sent as 1."""
+        padding = self._spec.behaviour.padding
+        if not (padding and padding.unassigned):
+            return
+        named: tuple[model.Signal | model.ReservedBits, ...] = (*signals, *self._reserved(row))
+        taken = {bit for each in named for bit in bits(each)}
+        start = 0
+        for bit in range(8 * (row.length or 0) + 1):
+            if bit in taken or bit == 8 * (row.length or 0):
+                if bit > start:
+                    yield model.ReservedBits(
+                        start=start, length=bit - start, value=1, reference=padding.cite
+                    )
+                start = bit + 1
 
     def _byte_order(self, message: MessageRow, field: FieldRow) -> model.ByteOrder:
         return model.ByteOrder(

@@ -63,6 +63,12 @@ def _add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--seconds", type=seconds, default=math.inf, help="end after so long")
     parser.add_argument("--seed", type=int, default=0, help="what chance is drawn from")
+    parser.add_argument(
+        "--sleep",
+        action="store_true",
+        help="let the BMU sleep three seconds after it was switched off (5.2.1.4), until it is"
+        " commanded on or a charger comes",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object a line")
     add_consent(
         parser,

@@ -132,6 +132,8 @@ class LivingNodes:
             algorithms=algorithms_of(self._options),
             codec=self._codec,
         )
+        if simulation.bmu:
+            simulation.bmu.may_sleep = self._options.sleep
         try:
             report = SimulationReport(simulation, as_json=self._options.json)
             note(f"simulating {', '.join(self._names)} on {self._name}, Ctrl-C ends")

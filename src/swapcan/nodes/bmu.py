@@ -12,21 +12,14 @@ import can
 from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import (
     B2V_RQ,
-    B2V_ST0,
     B2V_ST1,
-    B2V_ST2,
-    B2V_ST3,
-    B2V_ST4,
-    B2V_ST5,
-    B2V_ST6,
-    BMS_TMS_0,
     TMS_BMS_0,
     V2B_CMD,
     AccessoryHvCommand,
     B2C_Charger,
-    B2V_ElecEnergy,
     B2V_Temp,
     B2V_Ucell,
+    BmsState,
     C2B_ACStatus,
     HeatCommand,
     HvCommand,
@@ -37,6 +30,7 @@ from swapcan.messages import (
 )
 from swapcan.node import Node
 from swapcan.nodes import status
+from swapcan.nodes.sleep import Sleep
 from swapcan.nodes.world import Participant
 from swapcan.plant.alarms import HIGHEST_LEVEL
 from swapcan.plant.battery import Battery
@@ -72,19 +66,6 @@ _MOST_STEPS = 1000  # after a standstill of the clock's user
 _FRESH = 0.25  # s, five periods of V2B_CMD
 _ASK_AGAIN = {True: 1.0, False: 5.0}  # s between two B2V_RQ, by whether high voltage is to go
 
-_MAKERS: Mapping[type[Message], Callable[[PackStatus], Iterable[Message]]] = {
-    B2V_ST0: status.st0,
-    B2V_ST1: status.st1,
-    B2V_ST2: status.st2,
-    B2V_ST3: status.st3,
-    B2V_ST4: status.st4,
-    B2V_ST5: status.st5,
-    B2V_ST6: status.st6,
-    B2V_ElecEnergy: status.energy,
-    B2C_Charger: status.charger,
-    BMS_TMS_0: status.cooling_unit,
-}
-
 _COMMANDS: Mapping[int, Command] = {HvCommand.HV_ON: Command.ON, HvCommand.HV_OFF: Command.OFF}
 
 
@@ -93,7 +74,7 @@ class Bmu(Participant):
 
     It obeys V2B_CMD that is fresh and whole, charges while a charger is ready and the truck
     stands, unless ``may_charge`` is False, and tells of one measurement in all messages of a
-    cycle. ``vin`` is empty until the VCU has given it.
+    cycle. ``vin`` is empty until the VCU has given it. With ``may_sleep`` it sleeps once it is off.
 
     Parameters
     ----------
@@ -150,6 +131,8 @@ class Bmu(Participant):
         self.pack = Pack(battery or Battery(seed=seed), self._now, seed=seed)
         self.vin = ""
         self.may_charge = True
+        self.may_sleep = False
+        self._sleep = Sleep(self.nodes)
         self._command: V2B_CMD | None = None
         self._command_at = -math.inf
         self._asked: tuple[bool, bool] | None = None
@@ -167,6 +150,8 @@ class Bmu(Participant):
     def status(self) -> str:
         """What it is doing, in words."""
         now = self.state
+        if self._sleep.is_asleep:
+            return "asleep"
         text = B2V_ST1.FIELDS["bms"].text(now.state)
         if now.charge.connected:
             text += f", {B2V_ST1.FIELDS['chg_st'].text(now.charge.state)}"
@@ -183,11 +168,16 @@ class Bmu(Participant):
             at = now if number == count else began + passed * number / count
             self.pack.step(at, around)
         self._now = max(now, began)
-        self._ask(now)
+        if self.may_sleep:
+            is_open = self.state.state == BmsState.HV_OPEN
+            command = self._fresh_command(now)
+            self._sleep.step(now, command, is_open=is_open, plugged=around.plugged)
+        if not self._sleep.is_asleep:
+            self._ask(now)
 
     def _send_all(self) -> None:
         """Hand over to the nodes what they send."""
-        for kind, make in _MAKERS.items():
+        for kind, make in status.MAKERS.items():
             node = self.charger_node if kind is B2C_Charger else self.node
             self.supply(kind, partial(self._make, make), node=node)
         for kind, name in ((B2V_Ucell, "cell_voltages"), (B2V_Temp, "probe_temperatures")):
@@ -221,9 +211,12 @@ class Bmu(Participant):
     def _learn(self, vin: Vin) -> None:
         self.vin = vin.text
 
+    def _fresh_command(self, now: float) -> V2B_CMD | None:
+        return self._command if now - self._command_at <= _FRESH else None
+
     def _surroundings(self, now: float) -> Surroundings:
         """What the others say and do."""
-        command = self._command if now - self._command_at <= _FRESH else None
+        command = self._fresh_command(now)
         charger = self._heard(self.charger_node, C2B_ACStatus)
         unit = self._heard(self.node, TMS_BMS_0)
         load = charge = plugged = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from swapcan.messages import (
@@ -207,3 +207,18 @@ def battery_info(layout: Layout) -> tuple[B2V_BattInfo1, B2V_BattInfo2]:
             avai_max_ucell=FULL_CELL,
         ),
     )
+
+
+MAKERS: Mapping[type[Message], Callable[[PackStatus], Iterable[Message]]] = {
+    B2V_ST0: st0,
+    B2V_ST1: st1,
+    B2V_ST2: st2,
+    B2V_ST3: st3,
+    B2V_ST4: st4,
+    B2V_ST5: st5,
+    B2V_ST6: st6,
+    B2V_ElecEnergy: energy,
+    B2C_Charger: charger,
+    BMS_TMS_0: cooling_unit,
+}
+"""What makes the messages of a moment, but for those that take several frames."""

@@ -20,6 +20,11 @@ def bits(signal: Signal | ReservedBits) -> tuple[int, ...]:
     return tuple(reversed(tuple(_downwards(signal.start, signal.length))))
 
 
+def filler(message: Message) -> int:
+    """What is sent in reserved bits, as a number whose bits are those of the frame."""
+    return sum(1 << bit for part in message.reserved if part.value for bit in bits(part))
+
+
 def _downwards(start: int, length: int) -> Iterator[int]:
     """Motorola order: down to bit 0 of a byte, then on at bit 7 of the next."""
     bit = start

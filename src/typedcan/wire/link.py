@@ -81,8 +81,7 @@ class Link:
         by PGN and are not always for all. Raises `EncodeError` and `SendingError` before anything
         is sent, and `can.CanError`.
         """
-        message = self._codec.said(message)
-        kind = type(message)
+        kind = type(message := self._codec.said(message))
         frame = self._codec.frame(
             message,
             counter=self._sent.peek(kind),

@@ -36,13 +36,13 @@ class Packer:
     share bits, as those of branches do, are moved by packers of their own.
     """
 
-    def __init__(self, signals: Sequence[Signal], length: int) -> None:
+    def __init__(self, signals: Sequence[Signal], length: int, filler: int = 0) -> None:
         own, *others = _apart(signals) or [[]]
         bits: Any = [_bits(signal) for signal in own]
         formats = create_encode_decode_formats(bits, length)
         names = [signal.name for signal in signals]
         orders = {signal.byte_order for signal in own}
-        self._length = length
+        self._length, self._filler = length, filler
         self._big: Any = formats.big_endian if ByteOrder.MOTOROLA in orders else None
         self._little: Any = formats.little_endian if ByteOrder.INTEL in orders else None
         self._pick: Any = itemgetter(*names) if len(names) > 1 else lambda raw: tuple(raw.values())
@@ -66,7 +66,7 @@ class Packer:
         return raw
 
     def pack(self, raw: Mapping[str, int]) -> bytes:
-        """The payload; ``raw`` has a value for every signal that is there, other bits are 0.
+        """The payload; ``raw`` has a value for every signal that is there, other bits are fillers.
 
         Raises `ValueError` with the name of a signal whose bits another one needs otherwise.
         """
@@ -76,6 +76,8 @@ class Packer:
             for name, value in raw.items():
                 if again[name] != value and isinstance(value, int):
                     raise ValueError(name)
+        if self._filler:
+            data = (int.from_bytes(data, "little") | self._filler).to_bytes(self._length, "little")
         return data
 
     def _pack(self, raw: Mapping[str, int]) -> bytes:
@@ -105,7 +107,7 @@ def _apart(signals: Sequence[Signal]) -> list[list[Signal]]:
 
 def packer_of(message: Message) -> Packer:
     """What packs all signals of a message, in the order of their bits."""
-    return Packer(layout.readable(message), message.length)
+    return Packer(layout.readable(message), message.length, layout.filler(message))
 
 
 def _bits(signal: Signal) -> _Bits:
