@@ -221,3 +221,53 @@ def test_a_promise_is_explained_and_an_unknown_name_has_its_neighbour(
     assert "class wire" in capsys.readouterr().out
     assert run(["explain", "signal-overlap"]) == 2
     assert "did you mean signals-overlap?" in capsys.readouterr().err
+
+
+GROUP = (
+    ' SG_ Group : 0|16@1+ (1,0) [0|0] "" BB\n SG_ Low : 0|8@1+ (1,0) [0|0] "" BB\n'
+    ' SG_ High : 8|8@1+ (1,0) [0|0] "" BB\n'
+)
+
+
+def test_a_signal_that_covers_others_wholly_is_one_note_in_a_file_of_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, GROUP)
+    status, printed = linted(capsys, path)
+    assert (status, printed.splitlines()[-1]) == (0, "1 finding: 1 note")
+    assert "Group covers Low, High of MSG: a group of signals, or a wrong length" in printed
+    status, printed = linted(capsys, path, "--profile", "house", "--select", "signals-overlap")
+    assert (status, printed.splitlines()[-1]) == (1, "2 findings: 2 error")
+
+
+def test_a_signal_that_covers_one_other_or_is_covered_in_part_overlaps(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    one = written(tmp_path, "".join(GROUP.splitlines(keepends=True)[:2]))
+    assert "error     Low overlaps Group at bit 0" in linted(capsys, one)[1]
+    beside = ' SG_ Other : 12|8@1+ (1,0) [0|0] "" BB\n'
+    status, printed = linted(capsys, written(tmp_path, GROUP + beside))
+    assert (status, printed.splitlines()[-1]) == (1, "3 findings: 2 error, 1 note")
+
+
+def test_a_node_that_is_not_declared_is_named_once_however_often_it_is_mentioned(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lines = ' SG_ Sxx : 0|8@1+ (1,0) [0|1] "" CC\n SG_ Syy : 8|8@1+ (1,0) [0|1] "" CC,DD\n'
+    status, printed = linted(capsys, written(tmp_path, lines))
+    assert (status, printed.count("node-declared")) == (1, 2)
+    text = (HEAD + lines).replace("BU_: AA BB", "BU_:")
+    (tmp_path / "none.dbc").write_text(text, "utf-8")
+    assert linted(capsys, str(tmp_path / "none.dbc"))[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("limits", "house", "foreign"), [("-128|128", 1, 0), ("-128|128.1", 1, 1), ("-129|0", 1, 1)]
+)
+def test_a_limit_of_others_may_be_rounded_to_the_next_step(
+    limits: str, house: int, foreign: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, f' SG_ Sxx : 0|11@1+ (0.125,-128) [{limits}] "" BB\n')
+    assert linted(capsys, path)[0] == foreign
+    words = ("--profile", "house", "--select", "range-fits-bits")
+    assert linted(capsys, path, *words)[0] == house

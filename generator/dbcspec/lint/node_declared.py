@@ -18,6 +18,8 @@ _Mention = tuple[Location, str, str, str]
 def _check(subject: Subject) -> Iterator[Found]:
     declared = [node.name for node in subject.protocol.nodes]
     mentions = _in_spec(subject.spec) if subject.spec else _in_model(subject.protocol)
+    if not subject.settings.house:
+        mentions = _first_mentions(mentions) if declared else iter(())
     for where, node, what, message in mentions:
         if node not in declared:
             close = get_close_matches(node, declared, n=1)
@@ -29,6 +31,15 @@ def _check(subject: Subject) -> Iterator[Found]:
         if not each.sender:
             text = f"{each.name} has no sender: {remedy}"
             yield Found(each.where, each.name, text, each.name)
+
+
+def _first_mentions(mentions: Iterator[_Mention]) -> Iterator[_Mention]:
+    """The first mention of each node: a list of nodes lacks it once, however often it is named."""
+    seen: set[str] = set()
+    for mention in mentions:
+        if mention[1] not in seen:
+            seen.add(mention[1])
+            yield mention
 
 
 def _in_spec(spec: Spec) -> Iterator[_Mention]:

@@ -18,12 +18,12 @@ _ROUNDED = Decimal("1e-6")
 def _check(subject: Subject) -> Iterator[Found]:
     places = Places(subject)
     for message, signal in subject.protocol.signals():
-        if has_room(message, signal) and (fault := _fault(signal)):
+        if has_room(message, signal) and (fault := _fault(signal, subject)):
             where = places.meaning(signal, "range")
             yield Found(where, signal.name, f"{signal.name}: {fault}", message.name)
 
 
-def _fault(signal: Signal) -> str | None:
+def _fault(signal: Signal, subject: Subject) -> str | None:
     shown = f"{number(signal.minimum)}~{number(signal.maximum)}"
     if signal.minimum == signal.maximum == 0:
         return "the range 0~0 means none at all in a DBC file: give the real one"
@@ -34,6 +34,10 @@ def _fault(signal: Signal) -> str | None:
     low, high = sorted(raw * signal.factor + signal.offset for raw in signal.raw_limits)
     # Of a limit as it is printed the last digit may be rounded.
     near = max(abs(low), abs(high)) * _ROUNDED
+    if not subject.settings.house and any(
+        limit != limit.to_integral_value() for limit in (low, high)
+    ):
+        near = max(near, abs(signal.factor))  # many give 127.875 as 128
     if signal.minimum < low - near or signal.maximum > high + near:
         bits = "bit holds" if signal.length == 1 else "bits hold"
         return (

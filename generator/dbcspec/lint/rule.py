@@ -88,13 +88,15 @@ class Subject:
 class Found(NamedTuple):
     """What a check yields: a finding but for the rule.
 
-    ``message`` can be left out where the subject is a message, or a signal of one message only.
+    ``message`` can be left out where the subject is a message, or a signal of one message only,
+    ``level`` where it is that of the rule.
     """
 
     where: Location
     subject: str
     text: str
     message: str = ""
+    level: str = ""
 
 
 Check = Callable[[Subject], Iterable[Found]]
@@ -127,7 +129,7 @@ class Rule:
                 subject=found.subject,
                 text=found.text,
                 message=found.message or messages.get(found.subject, ""),
-                level=self.level,
+                level=found.level or self.level,
             )
             for found in found_all
         )

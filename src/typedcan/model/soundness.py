@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping
-from itertools import combinations
+from itertools import islice
 
 from typedcan.model.layout import bits, unreadable
 from typedcan.model.naming import unused
@@ -12,6 +12,8 @@ from typedcan.model.protocol import Message, Protocol, Signal
 
 _NAMED = 3
 """Remarks that are written out where one line has to do."""
+
+_MOST_OVERLAPS = 1000
 
 _Condition = Mapping[str, frozenset[int]]
 """Each multiplexer above a signal, with the values under which the signal is there."""
@@ -85,22 +87,58 @@ def _unique(signals: tuple[Signal, ...]) -> tuple[Signal, ...]:
 
 
 def overlaps(message: Message) -> Iterator[tuple[Signal, Signal, int]]:
-    """Each pair that one frame can have together, in order, with its first common bit."""
+    """Each pair that one frame can have together, with its first common bit.
+
+    They come in the order of the second. Of a message with thousands of them the first thousand do.
+    """
+    return islice(_overlaps(message), _MOST_OVERLAPS)
+
+
+def _overlaps(message: Message) -> Iterator[tuple[Signal, Signal, int]]:
     selectors = {signal.name: signal for signal in message.signals if signal.is_selector}
     signals = [signal for signal in message.signals if has_room(message, signal)]
     taken = [sum(1 << bit for bit in bits(signal) if bit >= 0) for signal in signals]
     conditions = [_condition(signal, selectors) for signal in signals]
     selected = [frozenset(signal.selectors) for signal in signals]
-    for here, there in combinations(range(len(signals)), 2):
-        shared = taken[here] & taken[there]
-        if not shared:
-            continue
+    before = _Taken()
+    for there, second in enumerate(signals):
         # First the quick answer: some messages have thousands of branches.
-        same = signals[here].multiplexer == signals[there].multiplexer != ""
-        if same and selected[here].isdisjoint(selected[there]):
-            continue
-        if _together(conditions[here], conditions[there]):
-            yield signals[here], signals[there], (shared & -shared).bit_length() - 1
+        meets = before.meets(second, taken[there])
+        before.add(second, taken[there])
+        for here in range(there) if meets else ():
+            shared = taken[here] & taken[there]
+            if not shared:
+                continue
+            same = signals[here].multiplexer == second.multiplexer != ""
+            if same and selected[here].isdisjoint(selected[there]):
+                continue
+            if _together(conditions[here], conditions[there]):
+                yield signals[here], second, (shared & -shared).bit_length() - 1
+
+
+class _Taken:
+    """The bits that signals have, by their multiplexer, and by the values that select them."""
+
+    def __init__(self) -> None:
+        self._by_multiplexer: dict[str, int] = {}
+        self._by_selector: dict[tuple[str, int], int] = {}
+
+    def add(self, signal: Signal, taken: int) -> None:
+        name = signal.multiplexer
+        self._by_multiplexer[name] = self._by_multiplexer.get(name, 0) | taken
+        for selector in signal.selectors if name else ():
+            self._by_selector[name, selector] = self._by_selector.get((name, selector), 0) | taken
+
+    def meets(self, signal: Signal, taken: int) -> bool:
+        """Whether one of them may be in a frame with this signal, and share bits with it."""
+        own = signal.multiplexer
+        if any(
+            mask & taken for name, mask in self._by_multiplexer.items() if name != own or not own
+        ):
+            return True
+        return bool(own) and any(
+            self._by_selector.get((own, selector), 0) & taken for selector in signal.selectors
+        )
 
 
 def has_room(message: Message, signal: Signal) -> bool:
