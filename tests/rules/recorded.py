@@ -32,6 +32,8 @@ def recorded(
     nodes: tuple[str, ...] = PROTOCOL.nodes,
     seed: int = 0,
     cscs: int = 2,
+    edition: str = "",
+    readings: tuple[str, ...] = (),
 ) -> tuple[can.Message, ...]:
     """The frames of a run on the simulated clock; channels are ``vehicle`` and ``charger``.
 
@@ -41,6 +43,8 @@ def recorded(
         As `swapcan simulate` takes them, such as ``hv_on@1s, drive@3s`` and ``lost_frame@20s``.
     cscs
         Of the pack, with 12 cells each.
+    edition, readings
+        In which they speak.
     """
     frames: list[can.Message] = []
     with Simulation.simulated(
@@ -49,6 +53,8 @@ def recorded(
         faults=[planned_fault(fault) for fault in faults],
         seed=seed,
         battery=Battery(Layout(cscs=cscs), seed=seed),
+        edition=edition,
+        readings=readings,
     ) as simulation:
         buses = [SimulatedBus(wire) for wire in simulation.wires]
 

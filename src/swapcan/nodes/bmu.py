@@ -17,8 +17,6 @@ from swapcan.messages import (
     V2B_CMD,
     AccessoryHvCommand,
     B2C_Charger,
-    B2V_Temp,
-    B2V_Ucell,
     BmsState,
     C2B_ACStatus,
     HeatCommand,
@@ -52,6 +50,7 @@ from swapcan.plant.sensors import (
 from swapcan.transfer import Vin
 from swapcan.wire import codec_for
 from typedcan.model.signal_state import SignalState
+from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.spoken.codec import words_of
 from typedcan.supervise import State
@@ -180,20 +179,23 @@ class Bmu(Participant):
         for kind, make in status.MAKERS.items():
             node = self.charger_node if kind is B2C_Charger else self.node
             self.supply(kind, partial(self._make, make), node=node)
-        for kind, name in ((B2V_Ucell, "cell_voltages"), (B2V_Temp, "probe_temperatures")):
-            self._send_readings(kind, self.protocol.transfer(name))
+        for transfer in self.protocol.transfers:
+            if transfer.parts.transfer.kind == ReadingsByGroup.name:
+                self._send_readings(transfer)
         self.tell(*status.battery_info(self.pack.battery.layout))
         self.tell(*status.pack_code(self.protocol, self.words))
 
-    def _send_readings(self, kind: type[Message], transfer: Transfer) -> None:
+    def _send_readings(self, transfer: Transfer) -> None:
         """Send all cells, or all probes, in the frames that what is spoken has for them."""
+        kind, field = transfer.items[0]
+        are_cells = kind.FIELDS[field].unit == "V"
 
         def make() -> tuple[Message, ...]:
             measured = self.state.measured
-            groups = measured.cells if kind is B2V_Ucell else measured.probes
+            groups = measured.cells if are_cells else measured.probes
             return split(transfer, dict(enumerate(groups, 1)))
 
-        every = self.words.kind(kind).PERIOD or 0.0
+        every = kind.PERIOD or 0.0
         # Where the spec says that a cycle takes longer than a period, one frame goes out in each.
         one_a_period = (transfer.parts.transfer.period or 0) / 1000 > every
         self.supply(kind, make, period=every * len(make()) if one_a_period else None)
