@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 import can
 import pytest
+from node.rough_bus import HEAT_LEFT
 from scenarios.lines import values
 
 from swapcan import encode
@@ -83,7 +84,7 @@ def test_the_safe_codes_take_the_place_of_those_that_act_and_the_rest_stays(both
     bus.send_safe_codes()
     assert bus.acting == ()
     named = {name.removeprefix("V2B_CMD_"): value for name, value in wire.last.items()}
-    assert (named["HV_OnOff"], named["HV_ACC_OnOff"], named["Heat_OnOff"]) == (2, 2, 2)
+    assert (named["HV_OnOff"], named["HV_ACC_OnOff"], named["Heat_OnOff"]) == (2, 2, HEAT_LEFT)
     assert named["VehicleSpeed"] == 42.0
     bus.send_safe_codes()
     assert wire.timeouts[1:] == [0, 0]  # a full queue is not waited for

@@ -14,7 +14,9 @@ import cantools
 from can.interfaces.virtual import VirtualBus
 from cantools.database.can import Database
 
+from swapcan._generated.protocol import PROTOCOL
 from swapcan.messages import V2B_CMD
+from typedcan.model.editions import unsure_codes
 
 PATIENCE = 30.0
 """Seconds for what takes much less on a machine with nothing else to do."""
@@ -134,7 +136,10 @@ def database() -> Database:
 
 _DATABASE = database()
 
-OFF = {"V2B_CMD_HV_OnOff": 2, "V2B_CMD_HV_ACC_OnOff": 2, "V2B_CMD_Heat_OnOff": 2}
+HEAT_LEFT = unsure_codes(PROTOCOL.model).get("V2B_CMD", {}).get("V2B_CMD_Heat_OnOff", 2)
+"""How the heating is left: off, as table 14 row 6 has it, or invalid where an edition has not."""
+
+OFF = {"V2B_CMD_HV_OnOff": {2}, "V2B_CMD_HV_ACC_OnOff": {2}, "V2B_CMD_Heat_OnOff": {2, HEAT_LEFT}}
 """Off, as table 14 rows 3, 4 and 6 have it."""
 
 
@@ -157,7 +162,7 @@ def is_on(frame: can.Message) -> bool:
 
 def is_off(frame: can.Message) -> bool:
     values = signals(frame)
-    return {name: values.get(name) for name in OFF} == OFF
+    return all(values.get(name) in codes for name, codes in OFF.items())
 
 
 def trailing_offs(frames: Sequence[can.Message]) -> list[can.Message]:

@@ -8,6 +8,7 @@ from swapcan._generated.protocol import PROTOCOL
 from swapcan.nodes.plan import PlannedStep
 from swapcan.scenarios.scenario import Scenario
 from typedcan.drive.driving import LEAVING, look_out_time
+from typedcan.model.editions import unsure_codes
 from typedcan.simulate.faults import PlannedFault
 from typedcan.wire.message import Message
 
@@ -64,11 +65,20 @@ def announcement(scenario: Scenario, nodes: Sequence[str]) -> Iterator[str]:
         yield f"  {second:5g} s  {text}"
     if "VCU" in nodes:
         yield f"    end  VCU: {_STEPS['hv_off']}, until B2V_ST1 says HV open, {LEAVING:g} s at most"
+    yield from _left_invalid(nodes)
     if "CHG" in nodes:
         yield f"    end  CHG: {_STEP_ENDS['charge']}"
     for step in scenario.steps(nodes):
         if step.name in _WARNINGS:
             yield f"  {_WARNINGS[step.name]}"
+
+
+def _left_invalid(nodes: Sequence[str]) -> Iterator[str]:
+    """What is left with no valid value, since editions disagree about its codes."""
+    for name, codes in unsure_codes(PROTOCOL.model).items():
+        sender = PROTOCOL.message(name).SENDER
+        if sender in nodes:
+            yield f"    end  {sender}: {', '.join(codes)} = Signal Invalid: codes differ by edition"
 
 
 def _sent(kind: type[Message]) -> str:

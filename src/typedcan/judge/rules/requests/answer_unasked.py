@@ -15,6 +15,7 @@ from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.requests.in_force import InForce, Moment, RequestsInForce
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import Tolerance
+from typedcan.model.protocol import SendType
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol, Request
@@ -38,6 +39,8 @@ _BEGIN = Tolerance(
         "记录开始后多长时间既无请求也无应答,才视为没有请求;记录可能在请求有效期间开始",
     ),
 )
+
+_ALWAYS = SendType.CYCLIC
 
 _UNASKED = Text(
     "sent {ago:.3g} s after the last request of the {asker} ended, {limit:.3g} s are allowed",
@@ -67,6 +70,8 @@ class _Asking:
 
     def __init__(self, request: Request, protocol: Protocol, findings: Findings) -> None:
         self._request = request
+        # What is sent all the time needs no request, though one may ask for it.
+        self._answers = [each for each in request.answers if each.MODEL.send_type is not _ALWAYS]
         self._askers = sent_by(protocol, request.field.message.SENDER)
         self._findings = findings
         self._limit = findings.limit(_SECONDS)
@@ -87,7 +92,7 @@ class _Asking:
         if self._last and self._last not in requests:
             requests.insert(0, self._last)
         self._last = requests[-1] if requests else None
-        for answer in self._request.answers:
+        for answer in self._answers:
             series = chunk.frames(answer)
             if series.fresh:
                 self._answered.setdefault(answer, float(series.time[series.first]))
