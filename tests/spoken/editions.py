@@ -66,6 +66,7 @@ COMMAND = model.Message(
             start_value=0xFFFF,
         ),
         signal("Mode", 32, 2, value_table=MODE),
+        signal("Gear", 48, 4, invalid_code=15, start_value=15, abnormal_code=14),
         signal("Spare", 40, 8, maximum=Decimal(200), invalid_code=255, start_value=255),
     ),
 )
@@ -123,6 +124,14 @@ OTHER_COMMAND = replace(
             start_value=0xFFF0,
         ),
         signal("Mode", 32, 2, value_table=table("Mode", Idle=0, Run=1, Drain=3)),
+        signal(
+            "Gear",
+            48,
+            4,
+            value_table=table("Gear", Neutral=0, First=1),
+            invalid_code=13,
+            start_value=13,
+        ),
         signal("Extra", 40, 8, invalid_code=0x7F, start_value=0x7F),
     ),
 )

@@ -51,8 +51,8 @@ def to_own(other: Field, field: Field) -> Convert:
         if not isinstance(field, LabelledField):
             if not isinstance(other, LabelledField):
                 return _number(field, value)
-            heard = codes.get(value, value)
-            return SignalState.INVALID if heard is _UNKNOWN else heard
+            # The number that it is, of whatever it is called there.
+            return SignalState.INVALID if value == other.signal.invalid_code else int(value)
         if isinstance(value, SignalState):
             known = _state(field, value)
         else:
