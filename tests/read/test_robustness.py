@@ -72,7 +72,7 @@ def file(folder: Path, data: bytes | str) -> Path:
         (SMALL.replace('"a comment"', '"a comment'), "a quote is opened and never closed"),
         (SMALL.replace("BO_ 1 First", "BO_ 4294967295 First"), ":4:1: First: 4294967295 is"),
         (SMALL.replace("BO_ 1 First", "BO_ 2048 First"), ":4:1: First: 2048 is no"),
-        (SMALL + "SG_MUL_VAL_ 1 Two One 0-4294967295;\n", ":13:1: more than 1048576 multi"),
+        (SMALL + "SG_MUL_VAL_ 1 Two One 0-4294967295;\n", ":13:1: more than "),
         ("VERSION \"\"\n" + "BO_ 1 A: 8 X\n" * 50_001, ":50002:1: more than 50000 messages"),
         ("VERSION \"\"\nBU_: " + "A " * 2_100_000, ":2:1: the line is longer than"),
     ],
@@ -101,8 +101,14 @@ def test_a_signal_without_a_scaling_takes_no_other_with_it(scale: str, tmp_path:
         ("sym", "[M]\nLen=100000000\n"),
         ("sym", "[M]\nVar=S unsigned 0,99999999\n"),
         ("arxml", "<FRAME-LENGTH>100000000</FRAME-LENGTH>"),
-        ("arxml", "<BASE-TYPE-SIZE>8</BASE-TYPE-SIZE>\n<LENGTH>100000000</LENGTH>"),
+        ("arxml", "<A><BASE-TYPE-SIZE>8</BASE-TYPE-SIZE>\n<LENGTH>100000000</LENGTH></A>"),
         ("arxml", "<START-POSITION>99999999</START-POSITION>"),
+        ("arxml", "<a:LENGTH xmlns:a='b'> 0x5F5E100 </a:LENGTH>"),
+        ("kcd", "<Signal name='S' offset='&#57;99999999' length='8'/>"),
+        ("kcd", "<Signal name='S' offset='0' length='+1_0_0000000'/>"),
+        ("sym", "{SIGNALS}\nSig=s unsigned 100000000\n"),
+        ("sym", "{SIGNALS}\nSig=s unsigned 8\n[M]\nSig=s // far\n 100000000\n"),
+        ("sym", "[M]\nLen // long\n=\n00100000000\n"),
     ],
 )
 def test_sizes_that_no_message_has_are_refused_before_they_are_used(
@@ -111,6 +117,47 @@ def test_sizes_that_no_message_has_are_refused_before_they_are_used(
     path = tmp_path / f"x.{name}"
     path.write_text(text)
     with pytest.raises(ReadError, match="no message has so many bits"):
+        read_any(path)
+
+
+@pytest.mark.parametrize("number", ["1e999999999", "-1.5E+99999", ".5e-10000"])
+def test_a_number_without_an_end_is_refused_in_its_line(number: str, tmp_path: Path) -> None:
+    definition = 'BA_DEF_ BO_ "GenMsgCycleTime" INT 0 1;\n'
+    path = file(tmp_path, f'{SMALL}{definition}BA_DEF_DEF_ "GenMsgCycleTime" {number};\n')
+    with pytest.raises(ReadError, match=r":14:1: nothing has a value of "):
+        read_dbc(path)
+
+
+def test_a_name_may_look_like_such_a_number(tmp_path: Path) -> None:
+    text = SMALL.replace("First", "A_1e99999").replace('"V"', '"1e99999"')
+    assert read_dbc(file(tmp_path, text)).messages[0].name == "A_1e99999"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('<!DOCTYPE x [<!ENTITY a "b">]><x y="&a;"/>', ":1: declares a document type"),
+        ("\n" + "<a>" * 300 + "</a>" * 300, ":2: nested too deeply"),
+        ("<a>\n<b></a>", ":2:6: not XML: mismatched tag"),
+    ],
+)
+@pytest.mark.parametrize("suffix", ["kcd", "arxml"])
+def test_xml_that_is_no_database_is_refused_with_its_line(
+    suffix: str, text: str, said: str, tmp_path: Path
+) -> None:
+    path = tmp_path / f"x.{suffix}"
+    path.write_text(text)
+    with pytest.raises(ReadError) as caught:
+        read_any(path)
+    assert said.removeprefix(":").split(":", 1)[1] in str(caught.value)
+    assert str(caught.value).startswith(f"{path}:{said.split(':')[1]}:")
+
+
+def test_a_cycle_time_of_a_sym_file_that_is_infinite_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "x.sym"
+    head = 'FormatVersion=6.0 // x\nTitle="t"\n\n{SENDRECEIVE}\n'
+    path.write_text(f"{head}[M]\nID=001h\nLen=8\nCycleTime=1e400\nVar=s unsigned 0,8\n")
+    with pytest.raises(ReadError, match=r"M: no cycle time is so long"):
         read_any(path)
 
 

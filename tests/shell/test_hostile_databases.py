@@ -39,7 +39,9 @@ def test_show_and_textconv_print_what_the_texts_are(folder: Path) -> None:
     assert len(row) == heading.index("where") - 2
 
 
-@pytest.mark.parametrize("words", [["lint", "esc.dbc"], ["compare", "esc.dbc", "new.dbc"]])
+@pytest.mark.parametrize(
+    "words", [["lint", "esc.dbc", "--profile", "house"], ["compare", "esc.dbc", "new.dbc"]]
+)
 def test_a_report_in_any_format_has_no_control_character(words: list[str], folder: Path) -> None:
     texts = printed(folder, "dbcspec", *([*words, "--format", each] for each in FORMATS))
     for text in texts:
@@ -128,7 +130,7 @@ def test_a_name_in_an_answer_is_shown(folder: Path) -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
 def test_a_terminal_gets_colours_and_no_other_sequence(folder: Path) -> None:
     environment = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
-    words = ("dbcspec", "lint", "esc.dbc")
+    words = ("dbcspec", "lint", "esc.dbc", "--profile", "house")
     coloured, status = in_terminal(*words, environment=environment, folder=folder)
     plain, _ = in_terminal(*words, environment=environment | {"NO_COLOR": "1"}, folder=folder)
     assert status == 1

@@ -138,7 +138,7 @@ class _Builder:
 
     def _message(self, message: CantoolsMessage, places: Places) -> model.Message:
         english, title = _texts(message.comment)
-        period = round(message.cycle_time or 0)
+        period = round(min(message.cycle_time or 0, 2 * _LONGEST_PERIOD))
         if period > _LONGEST_PERIOD:
             raise ReadError(f"{places.message}: {message.name}: no cycle time is so long")
         prefixes = (f"{message.name}_", shared_prefix([each.name for each in message.signals]))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import gc
 import logging
-import re
 from collections.abc import Iterator, Set
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,8 +15,9 @@ from cantools.database.can import Database
 from cantools.database.errors import UnsupportedDatabaseFormatError
 
 from typedcan.databases.database import Labels, Places, to_protocol
-from typedcan.databases.dbc_text import MOST_BITS, UNASSIGNED, DbcText
+from typedcan.databases.dbc_text import UNASSIGNED, DbcText
 from typedcan.databases.encoding import LARGEST_FILE, read_text
+from typedcan.databases.sizes import refuse_large
 from typedcan.model.errors import Location, ReadError
 from typedcan.model.protocol import Protocol
 
@@ -113,31 +113,13 @@ def read_any(
     if format_ == "dbc":
         return read_dbc(path, encoding, shown_as=name, largest=largest, labels=labels, wide=wide)
     text = read_text(path, encoding, shown_as=name, largest=largest)
-    _refuse_large_numbers(text, format_, name)
+    refuse_large(text, format_, name)
     database = _load(text, format_, name)
     places = [
         Places(Location(name), [Location(name)] * len(message.signals))
         for message in database.messages
     ]
     return to_protocol(database, name, places, labels or Labels())
-
-
-_SIZES = {
-    "kcd": re.compile(r"""\b(?:length|offset)\s*=\s*["']\s*(\d+)"""),
-    "sym": re.compile(
-        r"^\s*(?:Len\s*=\s*(\d+)|(?:Var|Mux)\s*=[^\n]*?(\d+)\s*,\s*(\d+))", re.MULTILINE
-    ),
-    "arxml": re.compile(r"<(?:LENGTH|[A-Z-]*-LENGTH|START-POSITION)>\s*(\d+)"),
-}
-"""Where lengths and places stand in files of each format but DBC."""
-
-
-def _refuse_large_numbers(text: str, format_: str, name: str) -> None:
-    """Bits of messages that no frame can have would fill the memory."""
-    for found in _SIZES[format_].finditer(text):
-        if any(len(each) > 5 or int(each) > MOST_BITS for each in filter(None, found.groups())):
-            where = Location(name, text.count("\n", 0, found.start()) + 1)
-            raise ReadError(f"{where}: no message has so many bits: {found[0].split()[-1]}")
 
 
 def read_database(path: Path) -> Protocol:

@@ -12,6 +12,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+from typedcan.databases.sizes import MOST_BITS, MOST_BYTES, refuse_endless_numbers
 from typedcan.model.errors import Location, ReadError
 
 UNASSIGNED = "VECTOR__INDEPENDENT_SIG_MSG"
@@ -28,12 +29,8 @@ _LONGEST_STATEMENT = 10_000
 _LONGEST_LINE = 1 << 22
 _LONGEST_TEXT = 1 << 20
 _MOST_MESSAGES = 50_000
-_MOST_SELECTORS = 1 << 20
-_MOST_BYTES = 4095
-"""Of the longest transfer that ISO 15765-2 knows with a length of 12 bits."""
-
-MOST_BITS = 8 * _MOST_BYTES
-"""No message has more."""
+_MOST_SELECTORS = 1 << 15
+"""And as many more as the file has characters."""
 
 _MOST_DIGITS = 9
 
@@ -79,6 +76,7 @@ class DbcText:
         self._refuse_endless_lines()
         # The same with nothing in its quotes, so that patterns find no words of other people.
         self._bare = _QUOTED_OR_COMMENT.sub(self._blank, text)
+        refuse_endless_numbers(self._bare, name)
         self._refuse_other_text()
         self._refuse_endless_selectors()
         self.unmarked: set[int] = set()
@@ -152,12 +150,13 @@ class DbcText:
     def _refuse_endless_selectors(self) -> None:
         """A range such as 0-4294967295 is a list of so many numbers to cantools."""
         total = 0
+        most = _MOST_SELECTORS + len(self._text)
         for statement in _SELECTORS.finditer(self._bare):
             for low, high in _RANGE.findall(statement[0]):
                 total += int(high) - int(low)
-            if total > _MOST_SELECTORS:
+            if total > most:
                 where = self._where(statement.start())
-                raise ReadError(f"{where}: more than {_MOST_SELECTORS} multiplexer values")
+                raise ReadError(f"{where}: more than {most} multiplexer values")
 
     def _find_places(self) -> list[MessagePlace]:
         places: list[MessagePlace] = []
@@ -169,7 +168,7 @@ class DbcText:
                 )
             if match[1]:
                 self._refuse_wide_identifier(match)
-                self._refuse_large(match, match[2], [match[4]], _MOST_BYTES, "bytes")
+                self._refuse_large(match, match[2], [match[4]], MOST_BYTES, "bytes")
                 places.append(MessagePlace(int(match[1]), match[2], line))
             elif places:
                 numbers = [match[4], match[5]]
