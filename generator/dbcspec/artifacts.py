@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import difflib
 import re
 from collections.abc import Iterator, Mapping
@@ -82,7 +81,7 @@ def chosen_artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
 
 def foreign_artifacts(protocol: Protocol, name: str) -> dict[str, bytes]:
     """What is generated of a protocol that is not the project's: DBC, stubs and matrix."""
-    named = with_dbc_names(dataclasses.replace(protocol, name=name))
+    named = with_dbc_names(protocol)
     made = emit_foreign(named, name)
     return {**made, f"{name}.xlsx": emit_matrix(named)}
 

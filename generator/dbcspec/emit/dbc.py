@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
+from dbcspec.emit.extras import NOBODY, ExtraLines, dbc_id, default_of, quote, quoted_codes
 from dbcspec.emit.long_names import LongName, shortened
 from dbcspec.emit.multiplexing import marker, selector_lists
 from dbcspec.emit.templating import template
@@ -23,8 +24,6 @@ from typedcan.model.protocol import (
     ValueTable,
 )
 
-NOBODY = "Vector__XXX"
-_EXTENDED = 0x8000_0000
 _FRAME_FORMATS = ("StandardCAN", "ExtendedCAN", "reserved", "J1939PG")
 _FD_FRAME_FORMATS = (*_FRAME_FORMATS, *["reserved"] * 10, "StandardCAN_FD", "ExtendedCAN_FD")
 _SEND_TYPES = tuple(
@@ -35,12 +34,12 @@ _LARGEST_INT = 2**31 - 1
 
 @dataclass(frozen=True, slots=True)
 class Attribute:
-    """An attribute definition: object keyword, name, type as DBC writes it, default."""
+    """An attribute definition: object keyword, name, type and default as DBC writes them."""
 
     on: str
     name: str
     type: str
-    default: str
+    default: str | None
     aspect: Aspect | None = None
 
 
@@ -55,6 +54,7 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
     part, long_names = shortened(_on_bus(protocol, bus) if bus else protocol)
     rates = {each.bit_rate for each in ([bus] if bus else protocol.buses)}
     attributes = _attributes(protocol, long_names)
+    extras = ExtraLines(part, {each.name: each.type for each in attributes})
     text = template("dbc.j2").render(
         protocol=part,
         digest=protocol.digest,
@@ -62,11 +62,12 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
         bus_type="CAN FD" if _has_fd(part) else "CAN",
         bit_rate=rates.pop() if len(rates) == 1 else None,
         attributes=attributes,
-        defaults={each.name: each.default for each in attributes},
+        defaults={each.name: each.default for each in attributes if each.default is not None},
+        extras=extras,
         value_tables=[_value_table(table, english=english) for table in part.value_tables],
         number=number,
         comment=_comments(english=english),
-        quote=_quote,
+        quote=quote,
         dbc_id=dbc_id,
         signal_line=_signal_line,
         messages_values=list(_values(part, english=english)),
@@ -79,11 +80,6 @@ def emit_dbc(protocol: Protocol, *, bus: Bus | None = None, english: bool = True
     return text.replace("\n", "\r\n")
 
 
-def dbc_id(message: Message) -> int:
-    """The identifier as BO_ has it: bit 31 marks an extended frame."""
-    return message.frame_id | _EXTENDED if message.extended else message.frame_id
-
-
 def _signal_line(signal: Signal) -> str:
     order = 1 if signal.byte_order is ByteOrder.INTEL else 0
     sign = "-" if signal.signed else "+"
@@ -91,7 +87,7 @@ def _signal_line(signal: Signal) -> str:
     return (
         f" SG_ {signal.name}{marker(signal)} : {signal.start}|{signal.length}@{order}{sign}"
         f" ({number(signal.factor)},{number(signal.offset)})"
-        f" [{_limits(signal)}] {_quote(signal.unit)} {receivers}"
+        f" [{_limits(signal)}] {quote(signal.unit)} {receivers}"
     )
 
 
@@ -100,12 +96,6 @@ def _limits(signal: Signal) -> str:
     if signal.is_float and (signal.minimum, signal.maximum) == float_limits(signal.length):
         return "0|0"
     return f"{number(signal.minimum)}|{number(signal.maximum)}"
-
-
-def _quote(text: str) -> str:
-    # A backslash before the closing quote would quote the quote.
-    text = f"{text} " if text.endswith("\\") else text
-    return '"' + text.replace('"', '\\"') + '"'
 
 
 def _comments(*, english: bool) -> Callable[[Protocol | Node | Message | Signal], str]:
@@ -134,9 +124,7 @@ def _frame_format(message: Message) -> int:
 
 
 def _value_table(table: ValueTable, *, english: bool) -> tuple[str, str]:
-    return table.name, " ".join(
-        f"{value} {_quote(label)}" for value, label in table.labels(english=english).items()
-    )
+    return table.name, quoted_codes(table.labels(english=english).items())
 
 
 def _values(protocol: Protocol, *, english: bool) -> Iterator[tuple[Message, Signal, str]]:
@@ -173,7 +161,21 @@ def _attributes(protocol: Protocol, long_names: list[LongName]) -> list[Attribut
     ]
     kinds = {(name.message is not None, name.is_signal) for name in long_names}
     every += [Attribute(*_LONG[kind], "STRING", '""') for kind in sorted(kinds)]
-    return [each for each in every if each.aspect is None or each.aspect in protocol.carries]
+    foreign = [each for each in protocol.definitions if not each.is_relation]
+    names = {each.name for each in foreign}
+    own = [each for each in every if each.aspect is None or each.aspect in protocol.carries]
+    return [
+        *(each for each in own if each.name not in names),
+        *(
+            Attribute(
+                f"{each.of} " if each.of else "",
+                each.name,
+                each.type,
+                None if each.default is None else default_of(each),
+            )
+            for each in foreign
+        ),
+    ]
 
 
 _LONG = {

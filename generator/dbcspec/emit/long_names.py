@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from dbcspec.emit.extras import renamed_extras, renamed_variable
 from typedcan.model.naming import LONGEST_NAME, is_dbc_keyword, unused
 from typedcan.model.protocol import Message, Protocol, Signal
 
@@ -46,7 +47,7 @@ def _renamed(
     for message in protocol.messages:
         signals = rename(signal.name for signal in message.signals)
         new = dataclasses.replace(
-            message,
+            renamed_extras(message, signals, nodes),
             name=messages[message.name],
             sender=nodes.get(message.sender, message.sender),
             other_senders=tuple(nodes.get(name, name) for name in message.other_senders),
@@ -61,6 +62,7 @@ def _renamed(
         protocol,
         nodes=tuple(dataclasses.replace(node, name=nodes[node.name]) for node in protocol.nodes),
         messages=tuple(changed),
+        variables=tuple(renamed_variable(each, nodes) for each in protocol.variables),
         value_tables=tuple(
             dataclasses.replace(table, name=tables[table.name]) for table in protocol.value_tables
         ),

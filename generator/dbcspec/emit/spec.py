@@ -10,6 +10,7 @@ import re
 from collections import Counter as Counts
 from collections.abc import Iterator
 
+from dbcspec.emit.spec_database import database_lines
 from dbcspec.emit.spec_yaml import Pairs, flow_entries, list_lines, mapping_lines, scalar
 from typedcan.model.acting import usual_start
 from typedcan.model.layout import float_limits
@@ -35,6 +36,8 @@ def emit_spec(protocol: Protocol) -> dict[str, bytes]:
         "messages.yaml": _messages(protocol),
         "behaviour.yaml": _behaviour(protocol, repeated),
     }
+    if lines := database_lines(protocol):
+        files["database.yaml"] = iter(lines)
     for count, message in enumerate(with_signals, start=1):
         files[f"tables/{count:0{width}}-{message.name}.yaml"] = _table(message, count, repeated)
     return {name: ("\n".join(lines) + "\n").encode("utf-8") for name, lines in files.items()}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from dbcspec.errors import Fault, SpecError
 from dbcspec.spec.behaviour_rows import Behaviour
+from dbcspec.spec.database_rows import Database
 from dbcspec.spec.errata_rows import Errata
 from dbcspec.spec.rows import (
     Edition,
@@ -31,14 +32,15 @@ _EDITIONS = f"editions/*/{_EDITION}"
 def read_spec(folder: Path, shown_as: str) -> Spec:
     """Read a spec folder as printed; raises `SpecError` with the faults of all its files.
 
-    ``shown_as`` is the folder's path as locations shall name it. behaviour.yaml, errata.yaml
-    and editions may be absent, the rest must be there.
+    ``shown_as`` is the folder's path as locations shall name it. behaviour.yaml, errata.yaml,
+    database.yaml and editions may be absent, the rest must be there.
     """
     reader = _FolderReader(folder, shown_as)
     standard = reader.read(Standard, "standard.yaml")
     messages = reader.read(Messages, "messages.yaml")
     behaviour = reader.read_if_there(Behaviour, "behaviour.yaml")
     errata = reader.read_if_there(Errata, "errata.yaml")
+    database = reader.read_if_there(Database, "database.yaml")
     tables = reader.tables()
     editions = [_edition(reader, path.parent) for path in sorted(folder.glob(_EDITIONS))]
     if reader.faults or standard is None or messages is None:
@@ -49,6 +51,7 @@ def read_spec(folder: Path, shown_as: str) -> Spec:
         tables=tuple(tables),
         behaviour=behaviour or Behaviour(where=Location(f"{shown_as}/behaviour.yaml")),
         errata=errata.errata if errata else (),
+        database=database,
         editions=tuple(filter(None, editions)),
     )
 

@@ -12,6 +12,7 @@ from dbcspec.errors import Fault, SpecError
 from dbcspec.spec.behaviour_names import unknown_names
 from dbcspec.spec.readings import ReadErratum, usual_readings
 from dbcspec.spec.resolve_acts import acting_codes
+from dbcspec.spec.resolve_database import with_database
 from dbcspec.spec.resolve_protection import filled_in, protected
 from dbcspec.spec.resolve_standard import (
     errata_of,
@@ -54,7 +55,8 @@ def resolve(
     """
     resolver = _Resolver(spec)
     read = usual_readings(spec) if errata is None else errata
-    protocol = dataclasses.replace(resolver.protocol(name), errata=errata_of(read), chosen=chosen)
+    resolved = with_database(resolver.protocol(name), spec.database, resolver.faults)
+    protocol = dataclasses.replace(resolved, errata=errata_of(read), chosen=chosen)
     if resolver.faults:
         raise SpecError(resolver.faults)
     return protocol

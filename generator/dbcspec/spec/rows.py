@@ -11,6 +11,7 @@ from decimal import Decimal
 from typing import ClassVar
 
 from dbcspec.spec.behaviour_rows import Behaviour
+from dbcspec.spec.database_rows import Database
 from dbcspec.spec.errata_rows import Errata, ErratumRow
 from dbcspec.spec.schema import (
     DECIMAL,
@@ -211,6 +212,7 @@ class Spec:
     tables: tuple[SignalTable, ...]
     behaviour: Behaviour
     errata: tuple[ErratumRow, ...]
+    database: Database | None = None
     editions: tuple[Edition, ...] = ()
 
     def rows(self) -> Iterator[tuple[SignalTable, SignalRow]]:
@@ -248,6 +250,7 @@ DOCUMENTS: Mapping[str, type[Record]] = {
     "table": SignalTable,
     "behaviour": Behaviour,
     "errata": Errata,
+    "database": Database,
     "edition": EditionHead,
     "edition-messages": EditionMessages,
 }

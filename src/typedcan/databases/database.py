@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import PurePath
+from typing import Any
 
 from cantools.database.can import Database
 from cantools.database.can import Message as CantoolsMessage
 from cantools.database.can import Node as CantoolsNode
 from cantools.database.can import Signal as CantoolsSignal
 
+from typedcan.databases.extras import Extras, groups_of
 from typedcan.databases.protection import protected
 from typedcan.databases.scaling import limits, scaling, start_value
 from typedcan.databases.value_tables import ValueTables, codes_labelled, codes_of
@@ -68,6 +70,7 @@ class _Builder:
         self._labels = labels
         self._defined = dict(database.dbc.attribute_definitions) if database.dbc else {}
         self._attributes = dict(database.dbc.attributes) if database.dbc else {}
+        self._extras = Extras(database)
         named = database.dbc.value_tables if database.dbc else {}
         self._value_tables = ValueTables({name: codes_of(table) for name, table in named.items()})
 
@@ -97,6 +100,10 @@ class _Builder:
             ),
             messages=messages,
             value_tables=self._value_tables.all(),
+            version=database.version or "" if database.dbc else "",
+            definitions=self._extras.definitions,
+            attributes=self._extras.of_database(),
+            variables=tuple(self._extras.variables()),
             carries=self._carries(messages),
             made_from=self._made_from(),
         )
@@ -123,6 +130,7 @@ class _Builder:
             aspect.VALUE_TABLE_NAMES: self._value_tables.named,
             aspect.FRAME_FORMATS: "VFrameFormat" in self._defined
             or any(message.is_fd or message.by_pgn for message in messages),
+            aspect.ATTRIBUTES: self._database.dbc is not None,
         }
         return frozenset(each for each, is_said in said.items() if is_said)
 
@@ -134,6 +142,7 @@ class _Builder:
             title=title,
             english=english,
             address=int(address) if isinstance(address, int | float) else None,
+            attributes=self._extras.attributes(_attributes(node)),
         )
 
     def _message(self, message: CantoolsMessage, places: Places) -> model.Message:
@@ -170,6 +179,9 @@ class _Builder:
                     message.signals, fields, places.signals, strict=True
                 )
             ),
+            groups=groups_of(message),
+            attributes=self._extras.attributes(_attributes(message)),
+            relations=tuple(self._extras.relations(message)),
             reference=str(_attribute(message, "SpecReference") or ""),
             errata=tuple(str(_attribute(message, "SpecErrata") or "").split()),
             where=places.message,
@@ -244,6 +256,7 @@ class _Builder:
             multiplexer=long.get(selector, selector) if signal.multiplexer_ids else "",
             selectors=tuple(sorted(signal.multiplexer_ids or ())) if selector else (),
             python_name=python_name,
+            attributes=self._extras.attributes(_attributes(signal)),
             reference=str(_attribute(signal, "SpecReference") or ""),
             errata=tuple(str(_attribute(signal, "SpecErrata") or "").split()),
             where=where,
@@ -262,8 +275,12 @@ def _texts(comment: str | None) -> tuple[str, str]:
 
 def _attribute(item: CantoolsNode | CantoolsMessage | CantoolsSignal, name: str) -> object:
     """The value of an attribute of a node, message or signal, None where it has none."""
-    attributes = item.dbc.attributes if item.dbc else {}
+    attributes = _attributes(item)
     return attributes[name].value if name in attributes else None
+
+
+def _attributes(item: CantoolsNode | CantoolsMessage | CantoolsSignal) -> Mapping[str, Any]:
+    return item.dbc.attributes if item.dbc else {}
 
 
 def _send_type(message: CantoolsMessage, period: int) -> model.SendType:

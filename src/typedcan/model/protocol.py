@@ -15,6 +15,13 @@ from functools import cached_property
 
 from typedcan.model.canonical import canonical
 from typedcan.model.errors import Location
+from typedcan.model.extras import (
+    Attribute,
+    AttributeDefinition,
+    EnvironmentVariable,
+    Relation,
+    SignalGroup,
+)
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.signal import NOWHERE as NOWHERE
 from typedcan.model.signal import ByteOrder as ByteOrder
@@ -52,6 +59,7 @@ class Aspect(Enum):
     TRANSFERS = "transfers and requests"
     ACTS = "codes that act"
     FRAME_FORMATS = "classic CAN or CAN FD, and what is found by its PGN"
+    ATTRIBUTES = "attributes of any name, signal groups, environment variables"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,6 +101,9 @@ class Message:
     checksum: Checksum | None = None
     counter: Counter | None = None
     reserved: tuple[ReservedBits, ...] = ()
+    groups: tuple[SignalGroup, ...] = ()
+    attributes: tuple[Attribute, ...] = ()
+    relations: tuple[Relation, ...] = ()
     reference: str = ""
     errata: tuple[str, ...] = ()
     where: Location = field(default=NOWHERE, compare=False)
@@ -141,6 +152,7 @@ class Node:
     english: str = ""
     address: int | None = None
     other_addresses: tuple[int, ...] = ()
+    attributes: tuple[Attribute, ...] = ()
     errata: tuple[str, ...] = ()
 
 
@@ -217,7 +229,8 @@ class Protocol:
     ``carries`` tells what its source could say at all, so that a comparison does not take silence
     for a difference; ``made_from`` is the digest of the protocol that it says it was made from.
     ``chosen`` names the edition and the readings where they are not the usual ones, as
-    ``v4.6+E50b``; ``variants`` are those that can be chosen at run time.
+    ``v4.6+E50b``; ``variants`` are those that can be chosen at run time. ``version`` is the text of
+    a database's VERSION; ``definitions`` are those of attributes that only its own tools know.
     """
 
     name: str
@@ -233,6 +246,10 @@ class Protocol:
     transfers: tuple[Transfer, ...] = ()
     requests: tuple[Request, ...] = ()
     errata: tuple[Erratum, ...] = ()
+    version: str = ""
+    definitions: tuple[AttributeDefinition, ...] = ()
+    attributes: tuple[Attribute, ...] = ()
+    variables: tuple[EnvironmentVariable, ...] = ()
     carries: frozenset[Aspect] = field(default=frozenset(Aspect), compare=False)
     made_from: str = field(default="", compare=False)
     variants: tuple[Variant, ...] = field(default=(), compare=False)

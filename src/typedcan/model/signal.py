@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 from typedcan.model.acting import ActingCodes, no_value
 from typedcan.model.errors import Location
+from typedcan.model.extras import Attribute
 from typedcan.model.signal_state import SignalState
 
 NOWHERE = Location("")
@@ -76,6 +77,7 @@ class Signal:
     multiplexer: str = ""
     selectors: tuple[int, ...] = ()
     python_name: str = ""
+    attributes: tuple[Attribute, ...] = ()
     reference: str = ""
     errata: tuple[str, ...] = ()
     where: Location = field(default=NOWHERE, compare=False)
