@@ -103,6 +103,11 @@ def rows_by_python_can(path: Path, **options: Any) -> list[Row]:
         return [row_of(frame) for frame in reader]
 
 
+def long_is_fd(rows: list[Row]) -> list[Row]:
+    """Rows of a format that does not say which frames are CAN FD: those above 8 bytes are."""
+    return [(*row[:2], row[2] | FrameFlag.FD, *row[3:]) if len(row[5]) > 8 else row for row in rows]
+
+
 def rows_in(blocks: Iterable[FrameBlock]) -> list[Row]:
     """What stands in the blocks; what is beyond a payload has to be zero."""
     rows: list[Row] = []

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from logs.log_files import mixed_frames, rows_by_python_can, write_log
+from logs.log_files import Row, mixed_frames, rows_by_python_can, write_log
 from logs.text_log_files import agreed, read_text, sound_rows
 
 from typedcan.logs.frames import FrameFlag as Flag
@@ -19,7 +19,14 @@ def test_logs_of_python_can_are_read_as_it_reads_them(
     tmp_path: Path, kinds: str, block_size: int
 ) -> None:
     path = write_log(tmp_path / "bus.log", mixed_frames(700, kinds=kinds))
-    assert sound_rows(path, block_size) == rows_by_python_can(path)
+    rows = sound_rows(path, block_size)
+    # python-can drops the channel and the bytes of error frames of one class
+    assert [_bare(row) for row in rows] == [_bare(row) for row in rows_by_python_can(path)]
+    assert {row[3] for row in rows} == {"can0", "can1", "can2"}
+
+
+def _bare(row: Row) -> Row:
+    return (*row[:1], 0, row[2], None, 0, b"") if row[2] & Flag.ERROR else row
 
 
 def test_logs_of_can_utils_have_names_of_channels_and_no_direction(tmp_path: Path) -> None:
@@ -55,7 +62,7 @@ def test_every_class_of_error_frames_is_one(tmp_path: Path) -> None:
         b"(1.5) can0 20000080#0000000000000000\n(2.5) can0 20000004#000C000000000000\n" * 20
     )
     bus_error, controller = sound_rows(path)[:2]
-    assert bus_error == (1.5, 0, Flag.EXTENDED | Flag.ERROR, None, 0, b"")
+    assert bus_error == (1.5, 0x80, Flag.EXTENDED | Flag.ERROR, "can0", 8, bytes(8))
     data = bytes.fromhex("000C000000000000")
     assert controller == (2.5, 4, Flag.EXTENDED | Flag.ERROR, "can0", 8, data)
 
@@ -137,5 +144,5 @@ def test_a_digit_that_is_none_is_found_at_every_column(tmp_path: Path) -> None:
             path.write_bytes(line * 20 + bad + line * 20)
             rows, damage = read_text(path)
             assert (len(rows), len(set(rows))) == (40, 1), bad
-            assert damage is not None
+            assert damage is not None, bad
             assert damage.where == "line 21"

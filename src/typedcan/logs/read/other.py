@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sqlite3
 import struct
 import zlib
@@ -12,10 +13,20 @@ from pathlib import Path
 import can
 import numpy as np
 from can.io.generic import MessageReader
+from can.util import dlc2len
 
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.read.blocks import NARROW, WIDE, Channels
-from typedcan.logs.read.columns import channel_of, flags_of, payload_length
+from typedcan.logs.read.frame import (
+    BIT_RATE_SWITCH,
+    ERROR,
+    ERROR_STATE,
+    EXTENDED,
+    FD,
+    LARGEST_ID,
+    REMOTE,
+    SENT,
+)
 from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogError, LogSource
 
 _DAMAGE = (
@@ -97,8 +108,8 @@ class OtherSource(LogSource):
                     frame.timestamp, int | float
                 ):
                     raise ValueError("a frame without identifier or time")  # noqa: TRY004
-                payload_length(frame)  # raises where a damaged file made nonsense of a frame
-                channel_of(frame)
+                _payload_length(frame)  # raises where a damaged file made nonsense of a frame
+                _channel_of(frame)
                 self._count += 1
                 yield frame
         except _DAMAGE as error:
@@ -118,9 +129,53 @@ def _block(frames: list[can.Message], channels: Channels) -> FrameBlock:
     return FrameBlock(
         np.array([frame.timestamp for frame in frames], np.float64),
         np.array([frame.arbitration_id for frame in frames], np.uint32),
-        np.array([flags_of(frame) for frame in frames], np.uint8),
-        np.array([channels.index(channel_of(frame)) for frame in frames], np.int16),
-        np.array([payload_length(frame) for frame in frames], np.uint8),
+        np.array([_flags_of(frame) for frame in frames], np.uint8),
+        np.array([channels.index(_channel_of(frame)) for frame in frames], np.int16),
+        np.array([_payload_length(frame) for frame in frames], np.uint8),
         np.frombuffer(bytearray().join(payloads), np.uint8).reshape(-1, width),
         channels.known,
+    )
+
+
+def _payload_length(frame: can.Message) -> int:
+    """The bytes of payload of a frame, or the DLC of a remote frame.
+
+    Raises `ValueError` where python-can made a frame of a line that does not hold one.
+    """
+    if not 0 <= frame.arbitration_id <= LARGEST_ID:
+        raise ValueError("the identifier has more than 29 bits")
+    if not math.isfinite(frame.timestamp):
+        raise ValueError("the time is no number")
+    length = frame.dlc if frame.is_remote_frame else len(frame.data)
+    meant = frame.dlc
+    if length != meant and not frame.is_fd:
+        meant = min(meant, NARROW)  # a DLC above 8 stands for 8 bytes
+    if not 0 <= length <= WIDE or length not in (meant, dlc2len(max(frame.dlc, 0))):
+        raise ValueError("the length and the payload do not agree")
+    return length
+
+
+def _channel_of(frame: can.Message) -> int | str | None:
+    """The channel of a frame.
+
+    Raises `ValueError` where it is garbage.
+    """
+    channel = frame.channel
+    if channel is None or isinstance(channel, int):
+        return channel
+    if isinstance(channel, str) and channel.isprintable():
+        return channel
+    raise ValueError("the channel is no name")
+
+
+def _flags_of(frame: can.Message) -> int:
+    """The `FrameFlag` bits of a frame."""
+    return (
+        EXTENDED * frame.is_extended_id
+        | REMOTE * frame.is_remote_frame
+        | ERROR * frame.is_error_frame
+        | FD * frame.is_fd
+        | BIT_RATE_SWITCH * frame.bitrate_switch
+        | ERROR_STATE * frame.error_state_indicator
+        | SENT * (not frame.is_rx)
     )

@@ -1,7 +1,7 @@
 """Lines of one shape: the digits at the same columns, all other characters the same.
 
 Such lines are read together, a column at a time. What their frames share (direction, channel,
-flags, length) stands in characters that are the same, so that python-can need read only one.
+flags, length) stands in characters that are the same, so that only one is read by itself.
 """
 
 from __future__ import annotations
@@ -10,18 +10,17 @@ import re
 from dataclasses import dataclass
 from typing import Self
 
-import can
 import numpy as np
 from numpy.typing import NDArray
 
 from typedcan.logs.read.alike import lines_at
 from typedcan.logs.read.digits import Words, decimal, flush_right, hex_number, seconds
+from typedcan.logs.read.frame import LARGEST_ID, Frame
 from typedcan.logs.read.payload import Payload
 
 LONGEST_SHAPE = 504
 """Characters of a line that are compared at most; `lines.PADDING` must be more."""
 
-_LARGEST_ID = 0x1FFFFFFF
 _NUMBERS = ("whole", "fraction", "id", "number")
 
 
@@ -46,12 +45,12 @@ class Values:
     data: NDArray[np.uint8]
     good: NDArray[np.bool_]
 
-    def begin_with(self, frame: can.Message, origin: float) -> bool:
-        """Whether the first row is the frame that python-can has read from the same line."""
+    def begin_with(self, frame: Frame) -> bool:
+        """Whether the first row is the frame that was read from the same line by itself."""
         return (
             bool(self.good[0])
-            and float(self.timestamp[0]) + origin == frame.timestamp
-            and int(self.frame_id[0]) == frame.arbitration_id
+            and float(self.timestamp[0]) == frame.timestamp
+            and int(self.frame_id[0]) == frame.frame_id
             and self.data[0].tobytes().startswith(frame.data)
         )
 
@@ -69,7 +68,8 @@ class Shape:
     line
         The line, as matched by a format's pattern: its groups ``whole``, ``fraction`` (of the
         time; may be missing), ``id`` and ``data`` (may be empty) are digits; ``number`` is a
-        number that nobody needs, and ``tail`` what nobody reads (either may be missing).
+        number that nobody needs, ``skip`` what differs from line to line, and ``tail`` what nobody
+        reads (any of them may be missing).
     payload
         How the payload is written.
     length
@@ -94,6 +94,8 @@ class Shape:
             same[first:last] = 0
         for columns in payload.digits(self._data, length):
             same[columns] = 0
+        if "skip" in line.re.groupindex:
+            same[slice(*line.span("skip"))] = 0
         text = np.zeros(8 * self._words, np.uint8)
         text[:end] = np.frombuffer(line.string, np.uint8, end)
         self._same = same.view(np.uint64)[:, np.newaxis]
@@ -112,7 +114,7 @@ class Shape:
         faults |= wrong
         data, wrong = self._payload.read(lanes, self._data, self.length)
         faults |= wrong
-        return Values(timestamp, frame_id, data, (faults == 0) & (frame_id <= _LARGEST_ID))
+        return Values(timestamp, frame_id, data, (faults == 0) & (frame_id <= LARGEST_ID))
 
     def _decimal(self, lanes: Words, name: str) -> tuple[Words, Words]:
         """A decimal number of up to ten digits."""

@@ -1,4 +1,4 @@
-"""Keeps what python-can logs about single lines to ourselves."""
+"""Keeps what a library logs about a file to ourselves."""
 
 from __future__ import annotations
 

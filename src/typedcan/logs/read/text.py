@@ -1,14 +1,13 @@
-"""Text logs: lines of the same shape are read together, all others by python-can's own reader."""
+"""Text logs: lines of the same shape are read together, all others one by one."""
 
 from __future__ import annotations
 
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Protocol
 
-import can
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,70 +15,24 @@ from typedcan.logs.frames import FrameBlock
 from typedcan.logs.read.alike import groups_alike
 from typedcan.logs.read.bad_lines import BadLines
 from typedcan.logs.read.blocks import Channels, reblock
-from typedcan.logs.read.columns import Columns, channel_of, payload_length
+from typedcan.logs.read.columns import Columns
+from typedcan.logs.read.frame import ERROR, REMOTE, Frame, Other
 from typedcan.logs.read.lines import LONGEST_LINE, LineBatch, TextLines
-from typedcan.logs.read.one_by_one import OneByOne
-from typedcan.logs.read.payload import Payload
 from typedcan.logs.read.shape import LONGEST_SHAPE, Shape
-from typedcan.logs.read.silence import silenced
 from typedcan.logs.read.source import Damage, LogSource
+from typedcan.logs.read.text_format import NOT_A_FRAME, TextFormat
 
 _TOGETHER = 16_384
 """Lines that are read at once: enough to make calls cheap, few enough to stay in the cache."""
 
 _FEW = 16
 _FEW_PER_COLUMN = 0.25
-"""So many lines, more where they are long, python-can has read before a shape is made of them."""
+"""So many lines, more where they are long, are read one by one before a shape is made of them."""
 
 _POOR_SHAPES = 4
-"""Shapes of few lines in a row, after which python-can is quicker."""
+"""Shapes of few lines in a row, after which reading one by one is quicker."""
 
 _GARBAGE = re.compile(rb"[\x00-\x08\x0a-\x1f\x7f]")
-NOT_A_FRAME = (ArithmeticError, LookupError, TypeError, ValueError)
-"""What python-can's readers raise on lines that hold no frame."""
-
-
-class TextFormat(Protocol):
-    """What is special about one format."""
-
-    name: str
-    """For messages."""
-
-    payload: Payload
-    """How it writes payloads."""
-
-    time_unit: int
-    """What times are divided by to make seconds."""
-
-    lines: OneByOne
-    """python-can's reader."""
-
-    warnings: list[str]
-    """What it warns of."""
-
-    @property
-    def pattern(self) -> re.Pattern[bytes] | None:
-        """The regular line of a frame with its line feed; `Shape` says which groups it has."""
-        ...
-
-    @property
-    def origin(self) -> float:
-        """What is added to times, in seconds."""
-        ...
-
-    def is_header(self, line: bytes) -> bool:
-        """Whether the line, the first or behind header lines, belongs to the header.
-
-        Raises one of `NOT_A_FRAME` where it does and is damaged.
-        """
-        ...
-
-    def read(self, line: str) -> can.Message | None:
-        """What python-can makes of a line; None where it holds something else than a frame.
-
-        Raises one of `NOT_A_FRAME` where a frame should be and is none.
-        """
-        ...
 
 
 class TextSource(LogSource):
@@ -112,6 +65,12 @@ class TextSource(LogSource):
         self._channels = Channels()
         self._in_header = True
         self._bad = BadLines(form.name)
+        self._passed: Counter[str] = Counter()
+
+    @property
+    def passed(self) -> Counter[str]:
+        """What in the file is no frame on the bus, by kind."""
+        return self._passed
 
     @property
     def size(self) -> int:
@@ -134,33 +93,27 @@ class TextSource(LogSource):
     def _blocks(self) -> Iterator[FrameBlock]:
         lines = 0
         for batch in self._lines:
-            yield self._block(batch)
+            block = self._frames(batch)
+            self.start = self._form.start
+            yield block
             lines += len(batch.ends)
         self.damage = self._bad.damage(self.path, self._lines.problem, lines)
-
-    def _block(self, batch: LineBatch) -> FrameBlock:
-        with silenced(self._form.lines.logger) as self._form.warnings:
-            return self._frames(batch)
 
     def _frames(self, batch: LineBatch) -> FrameBlock:
         columns = Columns(len(batch.ends))
         first = self._header(batch)
         last = len(batch.ends) - batch.unfinished
-        origins = np.full(len(batch.ends), self._form.origin)
-        slow = [*self._regular(batch, columns, first, last), *range(max(first, last), len(origins))]
-        added = columns.filled.copy()
-        single = []
+        slow = [*self._regular(batch, columns, first, last)]
+        slow += range(max(first, last), len(batch.ends))
+        single: list[tuple[int, Frame, int]] = []
+        others: list[tuple[int, Other]] = []
         for row in sorted(slow):
-            frame = self._irregular(batch, row)
-            if frame is not None:
-                single.append((row, *frame))
-            if self._form.origin != origins[row]:
-                origins[row:] = self._form.origin
+            self._irregular(batch, row, single, others)
         columns.put_frames(single)
-        if origins.any():
-            columns.timestamp[added] += origins[added]
         if batch.unfinished:
             self._check_end(batch, columns)
+        self._passed.update(other.kind for _, other in others if other.kind)
+        self._form.reckon(columns, others)
         return columns.block(self._channels.known)
 
     def _header(self, batch: LineBatch) -> int:
@@ -169,7 +122,7 @@ class TextSource(LogSource):
             if not self._in_header:
                 return row
             try:
-                self._in_header = self._form.is_header(batch.line(row))
+                self._in_header = self._form.is_header(_text(batch.line(row)))
             except NOT_A_FRAME:
                 self._bad.add(batch, row)
             if not self._in_header:
@@ -179,7 +132,7 @@ class TextSource(LogSource):
     def _regular(self, batch: LineBatch, columns: Columns, first: int, last: int) -> Iterator[int]:
         """Read the lines that are as most are; which others there are is returned."""
         lengths = (batch.ends - batch.starts)[first:last]
-        if self._form.pattern is None or sys.byteorder != "little":
+        if not self._form.patterns or sys.byteorder != "little":
             lengths[:] = LONGEST_SHAPE
         lengths = lengths.clip(max=LONGEST_SHAPE).astype(np.uint16)
         order = np.argsort(lengths, kind="stable")
@@ -220,24 +173,26 @@ class TextSource(LogSource):
         for group in groups_alike(batch.text, batch.starts[rows], self._length(batch, rows)):
             yield rows[group]
 
-    def _shape(self, batch: LineBatch, row: int) -> tuple[Shape, can.Message, int] | None:
+    def _shape(self, batch: LineBatch, row: int) -> tuple[Shape, Frame, int] | None:
         """The shape of a line, if it is a regular one, its frame and the channel's index."""
-        pattern = self._form.pattern
+        form = self._form
         line = batch.text[batch.starts[row] : batch.ends[row] + 1].tobytes()
-        match = pattern and pattern.fullmatch(line)
-        if not match or _GARBAGE.search(line.rstrip()):
+        if _GARBAGE.search(line.rstrip()):
+            return None
+        match = next(filter(None, (pattern.fullmatch(line) for pattern in form.patterns)), None)
+        if match is None:
             return None
         try:
-            frame = self._form.read(line.decode().rstrip("\r\n"))
-            if frame is None or frame.is_remote_frame or frame.is_error_frame:
+            frame = form.read(line.decode().rstrip("\r\n"))
+            if isinstance(frame, Other) or frame.flags & (REMOTE | ERROR):
                 return None
-            length = payload_length(frame)
-            channel = self._channels.index(channel_of(frame))
+            channel = self._channels.index(frame.channel)
         except NOT_A_FRAME:
             return None
-        if len(match["data"]) < self._form.payload.width(length):
+        held, needed = len(match["data"]), form.payload.width(frame.length)
+        if held < needed or (held > needed and "skip" in match.re.groupindex):
             return None
-        return Shape(match, self._form.payload, length, self._form.time_unit), frame, channel
+        return Shape(match, form.payload, frame.length, form.time_unit), frame, channel
 
     def _read(
         self,
@@ -245,7 +200,7 @@ class TextSource(LogSource):
         columns: Columns,
         rows: NDArray[np.int64],
         shape: Shape,
-        frame: can.Message,
+        frame: Frame,
         channel: int,
     ) -> NDArray[np.bool_]:
         """Read those of the lines that have the shape; ``frame`` is in the first one."""
@@ -253,33 +208,38 @@ class TextSource(LogSource):
         for first in range(0, len(rows), _TOGETHER):
             some = rows[first : first + _TOGETHER]
             values = shape.read(batch.text, batch.starts[some])
-            if not first and not values.begin_with(frame, self._form.origin):
+            if not first and not values.begin_with(frame):
                 good[:] = False
                 break
             good[first : first + _TOGETHER] = values.good
             if not values.good.all():
                 some, values = some[values.good], values.kept()
             columns.put(some, values)
-            columns.put_alike(some, frame, channel, shape.length)
+            columns.put_alike(some, frame, channel)
         return good
 
-    def _irregular(self, batch: LineBatch, row: int) -> tuple[can.Message, int] | None:
-        """Read any line, as python-can does; returns its frame, if any, and the channel's index."""
+    def _irregular(
+        self,
+        batch: LineBatch,
+        row: int,
+        frames: list[tuple[int, Frame, int]],
+        others: list[tuple[int, Other]],
+    ) -> None:
+        """Read any line; what it holds is added to the frames, or to what else there is."""
         line = batch.line(row)
         if not line.strip():
-            return None
+            return
         try:
-            if len(line) > LONGEST_LINE or _GARBAGE.search(line):
-                raise ValueError("no text")
-            frame = self._form.read(line.decode(errors="surrogateescape"))
-            if frame is not None:
-                payload_length(frame)
-                return frame, self._channels.index(channel_of(frame))
+            found = self._form.read(_text(line).decode(errors="surrogateescape"))
+            if isinstance(found, Frame):
+                frames.append((row, found, self._channels.index(found.channel)))
+                return
             if batch.unfinished and row == len(batch.ends) - 1 and line.lstrip()[:1].isdigit():
                 raise ValueError("cut off")
         except NOT_A_FRAME:
             self._bad.add(batch, row)
-        return None
+            found = Other("", self._form.time_of(line))
+        others.append((row, found))
 
     def _check_end(self, batch: LineBatch, columns: Columns) -> None:
         """A last line without end is cut off if it is shorter than others of its identifier."""
@@ -290,3 +250,10 @@ class TextSource(LogSource):
         if len(lengths) > 1 and lengths[-1] < min(lengths[:-1]):
             columns.filled[-1] = False
             self._bad.add(batch, len(batch.ends) - 1)
+
+
+def _text(line: bytes) -> bytes:
+    """The line; raises `ValueError` where it is none of a text."""
+    if len(line) > LONGEST_LINE or _GARBAGE.search(line):
+        raise ValueError("no text")
+    return line

@@ -1,49 +1,51 @@
-"""TRC logs of PEAK's tools and of python-can."""
+"""TRC logs of PEAK's tools and of python-can, of the versions 1.0 to 2.1."""
 
 from __future__ import annotations
 
-import io
 import re
+from datetime import datetime, timedelta
 from pathlib import Path
 
-import can
-from can.io.trc import TRCFileVersion
-
-from typedcan.logs.read.one_by_one import OneByOne
+from typedcan.logs.read.dates import date_in
+from typedcan.logs.read.frame import COMMENT, Frame, Other
 from typedcan.logs.read.payload import SPACED_HEX
-from typedcan.logs.read.source import BLOCK_SIZE
-from typedcan.logs.read.text import NOT_A_FRAME, TextSource
+from typedcan.logs.read.source import BLOCK_SIZE, Start
+from typedcan.logs.read.text import TextSource
+from typedcan.logs.read.text_format import TextFormat
+from typedcan.logs.read.trc_lines import LINES, line_of_columns
 
-_START = b";$STARTTIME"
-_KEYS = (b";$FILEVERSION", _START, b";$COLUMNS")
+_FIRST_DAY = datetime(1899, 12, 30)
+_1970 = datetime(1970, 1, 1)
+_MOST_DAYS = 2_900_000
 
 _NUMBER = r"(?P<number>\d{1,10})"
 _TIME = r"(?P<whole>\d{1,10})(?:\.(?P<fraction>\d{1,9}))?"
 _ID = r"(?P<id>[\dA-F]{1,8})"
 _DATA = r"(?P<data>(?:[\dA-F]{2}(?:\x20[\dA-F]{2})*(?=\s))?)"
 _TAIL = r"\s*(?P<tail>.*)"
-_LINES = {
-    TRCFileVersion.UNKNOWN: rf"{_NUMBER}\) {_TIME} {_ID} \d+ {_DATA}{_TAIL}",
-    TRCFileVersion.V1_1: rf"{_NUMBER}\) {_TIME} [RT]x {_ID} \d+ {_DATA}{_TAIL}",
-    TRCFileVersion.V1_3: rf"{_NUMBER}\) {_TIME} \d+ [RT]x {_ID} \S+ \d+ {_DATA}{_TAIL}",
+_PATTERNS = {
+    "1.0": rf"{_NUMBER}\) {_TIME} {_ID} \d+ {_DATA}{_TAIL}",
+    "1.1": rf"{_NUMBER}\) {_TIME} [RT]x {_ID} \d+ {_DATA}{_TAIL}",
+    "1.2": rf"{_NUMBER}\) {_TIME} \d+ [RT]x {_ID} \d+ {_DATA}{_TAIL}",
+    "1.3": rf"{_NUMBER}\) {_TIME} \d+ [RT]x {_ID} \S+ \d+ {_DATA}{_TAIL}",
 }
 _COLUMNS = {"N": _NUMBER, "O": _TIME, "I": _ID, "D": _DATA + r"\s*"}
 
 
-class TrcFormat:
+class TrcFormat(TextFormat):
     """``1) 1059.9 Rx 0300 8 DE AD BE EF DE AD BE EF``, and what other versions make of it."""
 
     name = "a TRC log"
     payload = SPACED_HEX
     time_unit = 1000
-    pattern: re.Pattern[bytes] | None = None
-    origin = 0.0
 
     def __init__(self) -> None:
-        self._reader = can.TRCReader(io.StringIO())
-        self.warnings: list[str] = []
-        self.lines = OneByOne(self._reader)
-        self._header: dict[bytes, str] = {}
+        self._version = "1.0"
+        self._columns: list[str] = []
+        self._days: datetime | None = None
+        self._date: datetime | None = None
+        self._is_utc = False
+        self._line = LINES["1.0"]
 
     def is_header(self, line: bytes) -> bool:
         """Lines that begin with a semicolon, up to the first one that does not."""
@@ -51,39 +53,46 @@ class TrcFormat:
         if not line.startswith(b";"):
             self._begin()
             return False
-        key = line.partition(b"=")[0]
-        if key in _KEYS:
-            text = line.decode()
-            if key == _START:
-                self.lines.first(text)  # raises if it is no number
-            self._header[key] = text
+        key, _, value = line.partition(b"=")
+        if key == b";$FILEVERSION":
+            self._version = value.decode().strip()
+        elif key == b";$COLUMNS":
+            self._columns = value.decode().strip().split(",")
+        elif key == b";$STARTTIME":
+            days = float(value.replace(b",", b"."))
+            if not 0 <= days < _MOST_DAYS:
+                raise ValueError("no day that a calendar has")
+            self._days = _FIRST_DAY + timedelta(days=days)
+            self.origin = (self._days - _1970).total_seconds()
+        elif b"start time:" in line.lower():
+            self._date = date_in(line)
+        elif b"python-can" in line:
+            self._is_utc = True
         return True
 
-    def read(self, line: str) -> can.Message | None:
-        """As python-can, which only warns of a line that is too short: here it is an error."""
-        if line.lstrip().startswith(";"):
-            return None
-        self.warnings.clear()
-        frame = self.lines.read(line.strip())
-        if self.warnings:
-            raise ValueError("the line is too short")
-        return frame
+    def read(self, line: str) -> Frame | Other:
+        """The frame in a line, or what else it holds."""
+        line = line.strip()
+        return COMMENT if line.startswith(";") else self._line(line)
 
     def _begin(self) -> None:
         """The header is complete: it says how the lines of frames look."""
-        self.lines.before = tuple(self._header.values())
-        try:
-            self.lines.first(*self.lines.before, "")
-        except NOT_A_FRAME:
-            return  # each line will say so
-        version = self._reader.file_version
-        start = self._reader.start_time
-        if start is not None and version is not TRCFileVersion.UNKNOWN:
-            self.origin = start.timestamp()
-        columns = sorted(self._reader.columns, key=self._reader.columns.__getitem__)
-        line = _LINES.get(version, " ".join(_COLUMNS.get(column, r"\S+") for column in columns))
-        if {"O", "I", "D"} <= {*columns} or version in _LINES:
-            self.pattern = _compiled(line)
+        if self._version not in ("1.1", "1.2", "1.3", "2.0", "2.1"):
+            self._version = "1.0"
+        if self._version == "1.0":
+            self.origin, self._days = 0.0, None
+        wall = self._days or self._date
+        if wall is not None:
+            self.start = Start(wall, self._is_utc, counted=self._days is None)
+        if self._version in _PATTERNS:
+            self._line = LINES[self._version]
+            pattern = _PATTERNS[self._version]
+        else:
+            self._line = line_of_columns(self._columns)
+            if not {"O", "I", "D"} <= {*self._columns}:
+                return
+            pattern = " ".join(_COLUMNS.get(column, r"\S+") for column in self._columns)
+        self.patterns = (_compiled(pattern),)
 
 
 def _compiled(line: str) -> re.Pattern[bytes]:
