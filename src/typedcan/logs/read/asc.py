@@ -49,7 +49,7 @@ class AscFormat(TextFormat):
 
     name = "an ASC log"
     payload = SPACED_HEX
-    patterns = _HEX_LINES
+    patterns: tuple[re.Pattern[bytes], ...] = _HEX_LINES
 
     def __init__(self) -> None:
         self._clock = AscClock()

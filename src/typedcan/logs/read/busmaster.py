@@ -130,8 +130,8 @@ def _seconds(text: str) -> float:
     found = _TIME.match(text)
     if found is None:
         raise ValueError("no time")
-    hours, minutes, seconds, rest = (int(each) for each in found.groups())
-    return round(3600 * hours + 60 * minutes + seconds + rest / 10 ** len(found[4]), 4)
+    hours, minutes, seconds = (int(each) for each in found.groups()[:3])
+    return float(f"{3600 * hours + 60 * minutes + seconds}.{found[4]}")
 
 
 def _channel(text: str) -> int:
