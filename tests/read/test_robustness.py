@@ -120,12 +120,22 @@ def test_sizes_that_no_message_has_are_refused_before_they_are_used(
         read_any(path)
 
 
-@pytest.mark.parametrize("number", ["1e999999999", "-1.5E+99999", ".5e-10000"])
+@pytest.mark.parametrize("number", ["1e999999999", "-1.5E+99999", ".5e10000"])
 def test_a_number_without_an_end_is_refused_in_its_line(number: str, tmp_path: Path) -> None:
     definition = 'BA_DEF_ BO_ "GenMsgCycleTime" INT 0 1;\n'
     path = file(tmp_path, f'{SMALL}{definition}BA_DEF_DEF_ "GenMsgCycleTime" {number};\n')
     with pytest.raises(ReadError, match=r":14:1: nothing has a value of "):
         read_dbc(path)
+
+
+def test_a_number_that_is_nearly_nothing_is_nothing(tmp_path: Path) -> None:
+    text = SMALL.replace("[0|255]", "[2.745744098767810851E-4321|255]")
+    assert read_dbc(file(tmp_path, text)).messages[0].signals[0].minimum == 0
+
+
+def test_a_signal_of_thousands_of_bits_may_say_its_range(tmp_path: Path) -> None:
+    text = SMALL.replace("[0|255]", "[0|2.745744098767810851E+4161]")
+    assert read_dbc(file(tmp_path, text)).messages[0].signals[0].maximum == 255
 
 
 def test_a_name_may_look_like_such_a_number(tmp_path: Path) -> None:

@@ -22,11 +22,11 @@ MOST_BITS = 8 * MOST_BYTES
 _DEEPEST = 200
 _LONGEST_NUMBER = 20
 _WHOLE = (True,)
-_ENDLESS = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d{4,}(?![\w.])")
+_ENDLESS = re.compile(r"(?<![\w.-])[-+]?(?:\d+\.?\d*|\.\d+)[eE]\+?\d{5,}(?![\w.-])")
 
 
 def refuse_endless_numbers(text: str, name: str) -> None:
-    """Raise `ReadError` for a number with four digits of exponent: as an integer it has no end."""
+    """Raise `ReadError` for a number with five digits of exponent: as an integer it has no end."""
     if found := _ENDLESS.search(text):
         where = Location(name, text.count("\n", 0, found.start()) + 1)
         raise ReadError(f"{where}: nothing has a value of {found[0][:_LONGEST_NUMBER]}")
@@ -34,7 +34,10 @@ def refuse_endless_numbers(text: str, name: str) -> None:
 
 def refuse_large(text: str, format_: str, name: str) -> None:
     """Raise `ReadError` for what no message has in the text of a KCD, SYM or ARXML file."""
-    refuse_endless_numbers(text, name)
+    if (
+        format_ != "arxml"
+    ):  # which has identifiers that look like numbers, and reads these as floats
+        refuse_endless_numbers(text, name)
     _REFUSING[format_](text, name)
 
 
