@@ -192,9 +192,15 @@ class _Trial:
             expected = any(map(_is_rounded, there))
             expected |= _cannot_be_sent(field, *values[field.dbc_name])
             return "" if expected else str(error)
+        # Of several codes that say the same state the first is sent.
+        other = [
+            each
+            for each in there
+            if _is_rounded(each) or values[each.dbc_name][0] in each.signal.other_invalid_codes
+        ]
         mask, rounded = (
             sum({1 << bit for field in fields for bit in layout.bits(field.signal)})
-            for fields in (there, filter(_is_rounded, there))
+            for fields in (there, other)
         )
         mine, right = (int.from_bytes(each, "little") for each in (sent, data))
         mine ^= layout.filler(self._kind.MODEL)

@@ -24,7 +24,8 @@ def lint(
 ) -> list[Finding]:
     """All findings of the rules that no waiver accepts, in order of place.
 
-    A waiver that accepts nothing is a finding itself, unless its rule did not run.
+    A waiver that accepts nothing is a finding itself, unless its rule did not run, or another
+    reading or edition is looked at than the usual one, which may need fewer.
     """
     used: set[Waiver] = set()
     left: list[Finding] = []
@@ -34,7 +35,7 @@ def lint(
             used.update(accepted)
             if not accepted:
                 left.append(finding)
-    if WAIVER_USED in rules:
+    if WAIVER_USED in rules and not subject.protocol.chosen:
         ran = {rule.id for rule in rules}
         unused = tuple(each for each in waivers if each not in used and each.rule in ran)
         left += WAIVER_USED.findings(dataclasses.replace(subject, unused_waivers=unused))

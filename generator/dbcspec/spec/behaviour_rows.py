@@ -22,7 +22,7 @@ from dbcspec.spec.schema import (
     whole_number,
     word_of,
 )
-from typedcan.model.transfer import Counted, Ending, Numbering
+from typedcan.model.transfer import Counted, Ending, Numbering, Pace
 from typedcan.model.transfers.registry import KINDS
 from typedcan.model.transfers.text import ENCODINGS
 
@@ -111,6 +111,9 @@ class TransferRow(Record):
     )
     details: tuple[str, ...] = key(
         list_of(SIGNAL), "further signals that belong to the value", default=()
+    )
+    pace: Pace = key(
+        word_of(Pace), "what comes in a period of its messages", default=Pace.ALL_IN_PERIOD
     )
     period: int | None = key(INTEGER, "ms in which all is sent once (default: of its messages)")
     timeout: Decimal | None = key(DECIMAL, "periods in which all frames must have come")

@@ -133,9 +133,13 @@ def _in_force(spec: Spec, choice: Choice) -> Iterator[ReadErratum]:
 def with_editions(spec: Spec, choice: Choice) -> Spec:
     """The printed rows with the messages and tables that the chosen editions have besides."""
     editions = editions_of(spec, choice.edition)
+    tables = {name: signal for each in editions for name, signal in each.head.value_tables.items()}
     messages = [*spec.messages.messages, *(row for each in editions for row in each.messages)]
     return dataclasses.replace(
         spec,
+        standard=dataclasses.replace(
+            spec.standard, value_tables={**spec.standard.value_tables, **tables}
+        ),
         messages=dataclasses.replace(spec.messages, messages=tuple(messages)),
         tables=(*spec.tables, *(table for each in editions for table in each.tables)),
     )

@@ -53,7 +53,7 @@ def resolve(
     A signal that no table explains is left out, and names of nodes are taken as they stand: the
     linter reports both.
     """
-    resolver = _Resolver(spec)
+    resolver = _Resolver(spec, chosen=bool(chosen))
     read = usual_readings(spec) if errata is None else errata
     resolved = with_database(resolver.protocol(name), spec.database, resolver.faults)
     protocol = dataclasses.replace(resolved, errata=errata_of(read), chosen=chosen)
@@ -63,14 +63,14 @@ def resolve(
 
 
 class _Resolver:
-    def __init__(self, spec: Spec) -> None:
+    def __init__(self, spec: Spec, *, chosen: bool) -> None:
         self._spec = spec
         self.faults: list[Fault] = []
         self._aliases = {
             alias: node.name for node in spec.standard.nodes for alias in (node.name, *node.aliases)
         }
         self._explained = spec.explanations()
-        self._value_tables = ValueTables(spec, self.faults)
+        self._value_tables = ValueTables(spec, self.faults, chosen=chosen)
         self._conditions = {
             message: timing.condition
             for timing in spec.behaviour.timing

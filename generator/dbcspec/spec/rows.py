@@ -19,6 +19,7 @@ from dbcspec.spec.schema import (
     NAME,
     RANGE,
     ROUTE,
+    SIGNAL,
     TEXT,
     Kind,
     Record,
@@ -178,6 +179,11 @@ class EditionHead(Record):
     date: str = key(TEXT, "its date or year, as far as known", required=True)
     over: str = key(EDITION, "the edition that it changes (default: the standard)", default="")
     readings: tuple[str, ...] = key(list_of(NAME), "the alternatives that it takes", default=())
+    value_tables: Mapping[str, str] = key(
+        map_of(NAME, SIGNAL),
+        "further value tables: name, and a signal that has these codes",
+        default={},
+    )
     warnings: tuple[str, ...] = key(
         LIST_OF_TEXT, "what its users have to know, in English", default=()
     )

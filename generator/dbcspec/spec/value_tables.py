@@ -12,16 +12,20 @@ _Codes = tuple[tuple[int, str], ...]
 class ValueTables:
     """Gives signals with the same codes the same `ValueTable`, named by standard.yaml.
 
-    Codes that standard.yaml names by no signal get the name of the first signal that has them.
+    Codes that standard.yaml names by no signal get the name of the first signal that has them. In
+    another reading or edition, ``chosen``, names may have become those of one table: the first one
+    is its name.
     """
 
-    def __init__(self, spec: Spec, faults: list[Fault]) -> None:
+    def __init__(self, spec: Spec, faults: list[Fault], *, chosen: bool = False) -> None:
         self._tables: dict[_Codes, ValueTable] = {}
         every = [row for _, row in reversed(list(spec.rows()))]
         rows = {**{row.name: row for row in every}, **{row.signal: row for row in every}}
         for name, signal in spec.standard.value_tables.items():
             where = spec.standard.where_is("value_tables")
             codes = _codes(rows[signal]) if signal in rows else ()
+            if chosen and (not codes or codes in self._tables):
+                continue
             if not codes:
                 faults.append(Fault(where, f"{name}: no signal {signal!r} with codes"))
             elif codes in self._tables:

@@ -22,6 +22,13 @@ class Counted(Enum):
     FRAMES = "frames"
 
 
+class Pace(Enum):
+    """What comes in a period of the messages: all frames of a set, or one of them."""
+
+    ALL_IN_PERIOD = "all_in_period"
+    ONE_A_PERIOD = "one_a_period"
+
+
 class Ending(Enum):
     """Where a text ends: all its characters count, or those before the first fill."""
 
@@ -65,8 +72,11 @@ class Transfer:
         else for ASCII.
     details
         Further signals of its messages that belong to the value.
+    pace
+        What comes in a period of its messages.
     period
-        In ms, from one time that all of it is sent to the next; None: the period of its messages.
+        In ms, from one time that all of it is sent to the next; None: as its messages and the pace
+        say.
     timeout
         Periods in which all frames must have come; None for what the kind has.
     rounds
@@ -96,6 +106,7 @@ class Transfer:
     fill: int | None = None
     encoding: str = ""
     details: tuple[str, ...] = ()
+    pace: Pace = Pace.ALL_IN_PERIOD
     period: int | None = None
     timeout: Decimal | None = None
     rounds: int | None = None

@@ -20,7 +20,7 @@ from typedcan.model.serial import from_plain, to_plain
 _IDENTITIES = ("name", "id", "signal")
 """What entries of lists are known by, the first that all of them have."""
 
-_ABOUT = ("variants", "digest", "format", "made_from", "carries")
+_ABOUT = ("chosen", "variants", "digest", "format", "made_from", "carries")
 """What is no part of the protocol itself."""
 
 _MARKS = "errata"
@@ -98,8 +98,8 @@ def _in_order(protocol: Protocol, names: tuple[str, ...]) -> list[Variant]:
 
 def _marks(now: list[str], usual: list[str], then: list[str] | None) -> list[str]:
     """The errata that touch an entry, where several choices say so."""
-    after = then or []
-    return sorted({*now, *after} - (set(usual) - set(after)))
+    before, after = set(usual), set(then or [])
+    return sorted((set(now) - (before - after)) | (after - before))
 
 
 def _at(facts: Any, path: str) -> Any:

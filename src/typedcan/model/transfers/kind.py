@@ -15,7 +15,7 @@ MOST_ITEMS = 1 << 16
 """No value has more, whatever a frame says."""
 
 _EVERY_KIND = frozenset(
-    {"name", "english", "kind", "messages", "items", "period", "timeout", "table"}
+    {"name", "english", "kind", "messages", "items", "period", "pace", "timeout", "table"}
 )
 _MOST = {"timeout": 1000, "period": 86_400_000, "rounds": 100}
 

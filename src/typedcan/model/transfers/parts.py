@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from typedcan.model.protocol import Message, Protocol, Signal
 from typedcan.model.signal_state import SignalState
-from typedcan.model.transfer import Counted, Transfer
+from typedcan.model.transfer import Counted, Numbering, Pace, Transfer
 
 EVENT_TIMEOUT = 1.0
 """Seconds in which a value that is sent once has to be complete."""
@@ -28,6 +28,13 @@ class Part(NamedTuple):
         while highest in signal.states:
             highest -= 1
         return highest
+
+    @property
+    def highest_labelled(self) -> int:
+        """The highest value that has a label, or of all where none has."""
+        codes = self.signal.value_table.codes if self.signal.value_table else ()
+        values = [code.value for code in codes if code.value not in self.signal.states]
+        return max(values, default=self.highest)
 
     def value_of(self, raw: int) -> float | SignalState:
         """What the signal holds where its bits are ``raw``."""
@@ -94,8 +101,22 @@ class Parts:
     def period(self) -> float | None:
         """Seconds from one time that all of it is sent to the next; None where it is no cycle."""
         periods = [message.period for message in self.messages]
-        period = self.transfer.period or max(filter(None, periods), default=None)
+        period = max(filter(None, periods), default=None)
+        if period and self.transfer.pace is Pace.ONE_A_PERIOD:
+            period *= self._most_frames
+        period = self.transfer.period or period
         return None if period is None else period / 1000
+
+    @property
+    def _most_frames(self) -> int:
+        """How many frames a set may have at most, as far as the spec tells."""
+        if self.numbers is not None:
+            return len(self.numbers)
+        if self.number is None:
+            return max(1, len(self.messages))
+        if self.group is None or self.transfer.numbering is Numbering.THROUGH:
+            return self.number.highest
+        return self.number.highest_labelled * self.group.highest_labelled
 
     def seconds(self, timeout: float) -> float:
         """The time in which all frames must have come; ``timeout`` is what the kind has."""
