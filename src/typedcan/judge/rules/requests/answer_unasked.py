@@ -50,8 +50,6 @@ _ALWAYS = Tolerance(
 _SEVERAL = 3
 """Frames that show a period."""
 
-_ALWAYS = SendType.CYCLIC
-
 _UNASKED = Text(
     "sent {ago:.3g} s after the last request of the {asker} ended, {limit:.3g} s are allowed",
     "在 {asker} 撤销请求 {ago:.3g} s 后仍发送,允许 {limit:.3g} s",
@@ -86,7 +84,9 @@ class _Asking:
     def __init__(self, request: Request, protocol: Protocol, findings: Findings) -> None:
         self._request = request
         # What is sent all the time needs no request, though one may ask for it.
-        self._answers = [each for each in request.answers if each.MODEL.send_type is not _ALWAYS]
+        self._answers = [
+            each for each in request.answers if each.MODEL.send_type is not SendType.CYCLIC
+        ]
         self._askers = sent_by(protocol, request.field.message.SENDER)
         self._findings = findings
         self._limit = findings.limit(_SECONDS)
@@ -96,7 +96,7 @@ class _Asking:
         self._asker: Moment | None = None  # the first frame of the node that asks
         self._first: Moment | None = None  # the first frame of the request's message
         self._answered: dict[type[Message], float] = {}  # when each answer came first
-        self._found = {answer: findings.apart() for answer in request.answers}
+        self._found = {answer: findings.apart() for answer in self._answers}
 
     def feed(self, chunk: Chunk) -> None:
         message = self._request.field.message
