@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from rules.alterations import CSCS, PLAN, SECONDS
-from rules.altered import Alteration, byte, signals
+from rules.altered import Alteration, added, byte, signals
 from rules.in_blocks import judged_by_all
 from rules.recorded import recorded
 
@@ -38,12 +38,14 @@ def test_the_errata_that_rules_name_are_there() -> None:
     ("rule", "errata"),
     [
         ("reserved-bits", {"E07", "E08"}),
-        ("answer-unasked", {"E45"}),
+        ("answer-unasked", {"E56"}),
         ("cell-count-announced", {"E50"}),
         ("probe-count-announced", {"E50"}),
         ("cell-extremes-place", {"E50"}),
         ("temperature-extremes-place", {"E50"}),
         ("cooling-told-voltage", {"E36"}),
+        ("discharge-limit", {"E61"}),
+        ("feedback-limit", {"E61"}),
         # The times and shares by which they decide are not printed.
         ("start-state", set()),
         ("hv-off-in-time", set()),
@@ -70,6 +72,7 @@ def test_what_is_left_open_belongs_to_a_message_or_a_signal_that_there_is() -> N
     ("rule", "alter", "errata"),
     [
         ("checksum", byte("B2V_SysCode2", 1.0, 7, 0x01), ("E46",)),
+        ("source-address", added("V2B_RQData", 1.0, arbitration_id=0x1801F3D0), ("E41",)),
         ("counter-sequence", signals("BSU_BMS_0", 9.0, BSU_Live=200), ("E49",)),
         ("counter-sequence", signals("BMS_TMS_0", 9.0, BMS_Life=200), ("E49",)),
         ("code-defined", signals("B2V_ST0", 9.0, B2V_ST0_Flt_ChgPlugOT=3), ("E54",)),

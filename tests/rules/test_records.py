@@ -28,9 +28,8 @@ def demands(judgement: Judgement) -> set[str]:
         ("frame_no_counts_through_pack", NODES, set()),
         ("ucell_one_frame_per_period", NODES, set()),
         ("battinfo_syscode_always", NODES, set()),
-        # No rule of either is printed (E49, E46): at most a recommendation.
-        ("bsu_live_1_255", NODES, {"counter-sequence"}),
-        ("syscode_checksum_sum", NODES, {"checksum"}),
+        ("bsu_live_1_255", NODES, set()),
+        ("syscode_checksum_sum", NODES, set()),
         ("charging_by_charge_contactors_mainpos_open", NODES, set()),
         # Another ECU sends a proprietary PGN that A.1 uses too; there is no cooling unit.
         ("foreign_18FF45A8_no_tms_judge_BMU", ("BMU",), {"foreign-frames"}),
@@ -73,8 +72,8 @@ OPEN_POSITIVE = both(
         (one_each_period, set()),
         (both(numbered_through, one_each_period), set()),
         (answers_always, set()),
-        (summed, {"checksum"}),
-        (counts("BSU_BMS_0", 0, 1, 255), {"counter-sequence"}),
+        (summed, set()),
+        (counts("BSU_BMS_0", 0, 1, 255), set()),
         (counts("BSU_BMS_0", 0, 0, 254), {"counter-sequence"}),
         (filled("BSU_BMS_0", 1, 0x50), {"reserved-bits"}),
         (filled("B2V_RQ", 0, 0x10), {"reserved-bits"}),

@@ -178,7 +178,7 @@ WORDINGS: Mapping[str, Wording] = {
             "表 A.1 也规定了这些报文的周期:始终按该周期发送亦符合标准。",
         ),
         clause="5.2.2; 5.2.3; A.1 (type Event)",
-        errata=("E45",),
+        errata=("E56",),
         tolerances={
             "answer-unasked.seconds": Text(
                 "From the withdrawal of a request to the last frame of its answers: twice the "
