@@ -2,7 +2,8 @@
 
 A message continues the one with the same identifier, else the one with the same name. Within a
 message a signal continues the one with the same name; within one identifier also the one on
-identical bits, so that renames are recognised. Only signals that differ are kept: what is equal
+identical bits, so that renames are recognised. Matched by place, bits go before names: so two
+spellings of one protocol are compared, and that is chosen where most names differ. Only signals that differ are kept: what is equal
 breaks no promise, and is most of any real pair.
 """
 
@@ -19,6 +20,9 @@ from typedcan.model.layout import bits
 from typedcan.model.protocol import Bus, Message, Node, Protocol, Signal, ValueTable
 
 T = TypeVar("T")
+
+_FEWEST_RENAMED = 5
+"""Signals with other names that make another spelling of a protocol, not an edit of it."""
 
 _apart_from_codes: Callable[[Signal], tuple[object, ...]] = attrgetter(
     *(part.name for part in fields(Signal) if part.compare and part.name != "value_table")
@@ -71,6 +75,8 @@ class Pairing:
     buses: tuple[tuple[Bus, Bus], ...]
     removed_buses: tuple[Bus, ...]
     added_buses: tuple[Bus, ...]
+    by_place: bool = False
+    """Whether signals were matched by their bits before their names."""
 
     @cached_property
     def signals(self) -> tuple[SignalPair, ...]:
@@ -141,8 +147,12 @@ class Pairing:
         return tuple(self._node_names.get(node, node) for node in nodes)
 
 
-def pair(old: Protocol, new: Protocol) -> Pairing:
-    """Match two protocols, in a time that grows with their size, not with its square."""
+def pair(old: Protocol, new: Protocol, *, by_place: bool | None = None) -> Pairing:
+    """Match two protocols, in a time that grows with their size, not with its square.
+
+    ``by_place`` tells whether bits go before names within one identifier; None: where most of the
+    signals on the same bits are called otherwise.
+    """
     messages, removed, added = _matched(
         old.messages, new.messages, attrgetter("frame_id", "extended"), attrgetter("name")
     )
@@ -152,7 +162,9 @@ def pair(old: Protocol, new: Protocol) -> Pairing:
     buses, removed_buses, added_buses = _matched(
         old.buses, new.buses, attrgetter("name"), lambda bus: frozenset(bus.nodes)
     )
-    matcher = _SignalMatcher()
+    if by_place is None:
+        by_place = _most_are_renamed(messages)
+    matcher = _SignalMatcher(by_place=by_place)
     return Pairing(
         old=old,
         new=new,
@@ -165,13 +177,28 @@ def pair(old: Protocol, new: Protocol) -> Pairing:
         buses=buses,
         removed_buses=removed_buses,
         added_buses=added_buses,
+        by_place=by_place,
     )
+
+
+def _most_are_renamed(messages: Iterable[tuple[Message, Message]]) -> bool:
+    """Whether more signals of one identifier share their bits alone than share their names."""
+    same_name = same_place = 0
+    for old, new in messages:
+        before, after = ({signal.name for signal in side.signals} for side in (old, new))
+        same_name += len(before & after)
+        if before != after and _same_identifier(old, new):
+            by_bits = {_place(signal) for signal in old.signals if signal.name not in after}
+            rest = (signal for signal in new.signals if signal.name not in before)
+            same_place += sum(_place(signal) in by_bits for signal in rest)
+    return same_place > same_name and same_place >= _FEWEST_RENAMED
 
 
 class _SignalMatcher:
     """Matches the signals of messages; remembers which value tables are the same."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, by_place: bool) -> None:
+        self._by_place = by_place
         self._tables: dict[tuple[int, int], bool] = {}
 
     def message(self, old: Message, new: Message) -> MessagePair:
@@ -181,8 +208,10 @@ class _SignalMatcher:
             added: tuple[Signal, ...] = ()
             reordered = False
         else:
-            same_identifier = (old.frame_id, old.extended) == (new.frame_id, new.extended)
-            keys = (attrgetter("name"), _place) if same_identifier else (attrgetter("name"),)
+            keys: tuple[Callable[[Signal], Hashable], ...] = (attrgetter("name"),)
+            if _same_identifier(old, new):
+                by_bits = (_place, *keys, _first_bit)
+                keys = by_bits if self._by_place else (*keys, _place)
             matched, removed, added = _matched(old.signals, new.signals, *keys)
             reordered = is_reordered(matched, new.signals)
         different = [pair for pair in matched if not self._same(*pair)]
@@ -222,8 +251,16 @@ def is_reordered(matched: Sequence[tuple[T, T]], new: Sequence[T]) -> bool:
     return indexes != sorted(indexes)
 
 
+def _same_identifier(old: Message, new: Message) -> bool:
+    return (old.frame_id, old.extended) == (new.frame_id, new.extended)
+
+
 def _place(signal: Signal) -> Hashable:
     return bits(signal), signal.selectors
+
+
+def _first_bit(signal: Signal) -> Hashable:
+    return signal.start, signal.byte_order, signal.selectors
 
 
 def _roles(old: Protocol, new: Protocol) -> tuple[Callable[[Node], Hashable], ...]:
