@@ -17,10 +17,10 @@ _LONGEST = 200
 
 _WORDS: tuple[tuple[str, dict[str, str]], ...] = (
     # What denies comes first: what it has matched is not looked at again.
-    (r"invalid|not valid|无效", {"value": "invalid"}),
-    (r"abnormal|异常", {"value": "abnormal"}),
+    (r"\binvalid|not valid|无效", {"value": "invalid"}),
+    (r"\babnormal|异常", {"value": "abnormal"}),
     (r"no (?:fault|error)|\bnormal\b|无故障|正常", {"health": "sound"}),
-    (r"reserved?\b|\bspare\b|预留|保留", {"value": "reserved"}),
+    (r"\breserved?\b|\bspare\b|预留|保留", {"value": "reserved"}),
     (r"not connected|unconnected|disconnected|未连接", {"connection": "no"}),
     (r"\bconnected|连接", {"connection": "yes"}),
     (r"\bno(?:t)? request(?:ed)?|不请求|无请求", {"request": "no"}),
