@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from dbcspec.cli import main
+from dbcspec.cli import run
 from dbcspec.compare.pairing import pair
 from dbcspec.compare.run import RULES, compare, findings
 from dbcspec.read.doors import open_side
@@ -168,9 +168,9 @@ def test_the_command_says_that_it_matched_by_place(
     files: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
 ) -> None:
     old, new = map(str, files)
-    assert main(["compare", old, new]) == 1
+    assert run(["compare", old, new]) == 1
     assert "Most names differ" in capsys.readouterr().out.splitlines()[1]
-    assert main(["compare", old, new, "--no-by-place"]) == 1
+    assert run(["compare", old, new, "--no-by-place"]) == 1
     assert "Most names differ" not in capsys.readouterr().out
 
 
