@@ -21,6 +21,7 @@ _TRANSFERS: Mapping[ProblemKind, str] = {
     "character": "transfers with a code that is no character",
     "check": "transfers with a wrong check digit",
     "totals": "transfers with other totals than readings",
+    "reading": "transfers in several readings",
 }
 _MOST = 10
 """Unknown identifiers that are listed for people."""

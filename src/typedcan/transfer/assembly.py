@@ -12,6 +12,7 @@ from typedcan.model.transfers.blocks import Blocks
 from typedcan.model.transfers.kind import Problem
 from typedcan.model.transfers.parts import Part
 from typedcan.model.transfers.reading_rules import Readings
+from typedcan.model.transfers.recognising import Recognising, rules_of
 from typedcan.model.transfers.registry import KINDS, problems
 from typedcan.model.transfers.text import Text
 from typedcan.transfer.split import TransferError
@@ -58,7 +59,7 @@ class Assembler(Generic[ResultT_co]):
             raise TransferError(transfer.name, wrong)
         self.transfer = transfer
         self._make = make
-        self._rules = KINDS[transfer.parts.transfer.kind].rules(transfer.parts, timeout, rounds)
+        self._rules = rules_of(transfer.parts, timeout, rounds)
         self._readers: dict[type[Message], tuple[str, _Read]] = {}
         for name, parts in self._rules.wanted.items():
             message = transfer.classes[name]
@@ -78,6 +79,11 @@ class Assembler(Generic[ResultT_co]):
     def duplicates(self) -> int:
         """Frames that came again before the set was complete."""
         return self._rules.duplicates
+
+    @property
+    def readings(self) -> tuple[str, ...]:
+        """The readings of the spec in which values came, where it has several and frames tell."""
+        return self._rules.readings if isinstance(self._rules, Recognising) else ()
 
     def take(self, message: Message, at: float) -> tuple[ResultT_co | Problem, ...]:
         """What a message brings about: a result, problems, or neither.
@@ -146,6 +152,12 @@ class Transfers:
         """When `expire` has something to do if nothing arrives; `math.inf` for never."""
         deadlines = (assembler.deadline for assembler in self.assemblers.values())
         return min(deadlines, default=math.inf)
+
+    @property
+    def readings(self) -> Mapping[str, tuple[str, ...]]:
+        """By transfer, the readings of the spec in which values came, as far as frames told."""
+        found = {name: each.readings for name, each in self.assemblers.items()}
+        return {name: readings for name, readings in found.items() if readings}
 
     def assembler(self, name: str) -> Assembler[Any]:
         """Another assembler of the transfer of that name, which has seen nothing yet.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swapcan.messages import B2V_ST3, BMS_TMS_0, HvRelayState
+from swapcan.messages import B2V_ST3, BMS_TMS_0
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
@@ -65,9 +65,7 @@ class CoolingToldVoltage(LastingWatcher):
             np.abs(told - battery) - self._share * battery, np.abs(told - out) - self._share * out
         )
         excess -= self._voltage
-        # While the relays are open some tell that there is no voltage, or none to tell.
-        nothing = np.isin(series.raw("volt"), (0, 0xFFFF))
-        judged = ~np.isnan(excess) & ~(nothing & (series.raw("hv_rly_sts") == HvRelayState.OPEN))
+        judged = ~np.isnan(excess)
 
         def describe(row: int) -> Said:
             return _DIFFERS, {
@@ -88,8 +86,7 @@ RULE = Rule(
         "机组据此对压缩机作过压、欠压保护;该信号高字节在前,字节序与分辨率容易出错。",
     ),
     clause="Table 19 row 5 (5.5), Table 1 rows 4 and 5 (5.1.1)",
-    severity=Severity.SHOULD,
-    errata=("E36",),
+    severity=Severity.MUST,
     judges=("BMU",),
     tolerances=(_SHARE, _VOLTAGE, _SECONDS),
     watch=CoolingToldVoltage,

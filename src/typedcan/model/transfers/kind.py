@@ -19,7 +19,9 @@ _EVERY_KIND = frozenset(
 )
 _MOST = {"timeout": 1000, "period": 86_400_000, "rounds": 100}
 
-ProblemKind = Literal["conflict", "timeout", "number", "length", "character", "check", "totals"]
+ProblemKind = Literal[
+    "conflict", "timeout", "number", "length", "character", "check", "totals", "reading"
+]
 """What is wrong.
 
 conflict
@@ -36,6 +38,9 @@ check
     The text has no right check digit.
 totals
     More readings arrive than the sender says there are, or they cannot be told apart.
+reading
+    Values came in another reading of the spec before: two nodes that read it differently, or one
+    that changed.
 """
 
 

@@ -118,11 +118,17 @@ class Parts:
             return self.number.highest
         return self.number.highest_labelled * self.group.highest_labelled
 
-    def seconds(self, timeout: float) -> float:
-        """The time in which all frames must have come; ``timeout`` is what the kind has."""
-        if self.period is None:
+    def seconds(self, timeout: float, frames: int = 0) -> float:
+        """The time in which all frames must have come; ``timeout`` is what the kind has.
+
+        ``frames`` is how many there are, where that is known.
+        """
+        period = self.period
+        if period is None:
             return EVENT_TIMEOUT
-        return float(self.transfer.timeout or timeout) * self.period
+        if frames and self.transfer.pace is Pace.ONE_A_PERIOD and not self.transfer.period:
+            period *= frames / self._most_frames
+        return float(self.transfer.timeout or timeout) * period
 
     @property
     def word(self) -> str:

@@ -19,7 +19,7 @@ from typedcan.model.transfers.cycle import (
 )
 from typedcan.model.transfers.kind import Problem, ProblemKind, Rules, whole
 from typedcan.model.transfers.parts import Parts
-from typedcan.model.transfers.shape import Totals, shape_of, totals_of
+from typedcan.model.transfers.shape import Totals, frames_of, shape_of, totals_of
 
 Reading = float | SignalState
 """A measured value, or what the signal says instead."""
@@ -95,6 +95,7 @@ class ReadingRules(Rules):
 
     def __init__(self, parts: Parts, window: float | None = None) -> None:
         transfer = parts.transfer
+        self._given = window
         self._window = parts.seconds(WINDOW) if window is None else window
         if self._window <= 0:
             raise ValueError(f"{transfer.name}: readings cannot be within {self._window:g} s")
@@ -185,6 +186,8 @@ class ReadingRules(Rules):
         if isinstance(shape, str):
             self._lacked = shape
             return (self._problem("totals", shape, at),)
+        if self._given is None:
+            self._window = self._parts.seconds(WINDOW, frames_of(self._parts, totals))
         self._cycle = Cycle(self._parts.width, self._window, shape)
         return ()
 

@@ -252,6 +252,12 @@ def totals_of(parts: Parts, values: Sequence[int | None]) -> Totals | None:
     return Totals(groups, count)
 
 
+def frames_of(parts: Parts, totals: Totals) -> int:
+    """How many frames a cycle has, where all groups are alike."""
+    each = -(totals.count // -totals.groups)
+    return totals.groups * -(each // -parts.width)
+
+
 def shape_of(parts: Parts, totals: Totals) -> Shape | str:
     """What is known of the numbers of readings with these totals, or why nothing can be."""
     transfer = parts.transfer

@@ -8,7 +8,6 @@ from typedcan.judge.findings import Said
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.spread import Spread
 from typedcan.judge.rule import Rule, Severity
-from typedcan.judge.rules.timing.by_turns import watch_periods
 from typedcan.judge.rules.timing.whole_log import WholeLog
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -62,5 +61,5 @@ def rule(protocol: Protocol) -> Rule:
         severity=Severity.MUST,
         judges=nodes_of(protocol),
         tolerances=(_SHARE, _LEAST),
-        watch=partial(watch_periods, protocol=protocol, make=PeriodMean),
+        watch=partial(PeriodMean, protocol=protocol),
     )
