@@ -23,6 +23,7 @@ from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
 
 _DIFF_LINES = 8
+_SURPLUS = "no longer generated: delete it"
 _DIGEST = re.compile(rb"\b[0-9a-f]{16}\b")
 
 
@@ -33,6 +34,11 @@ class Stale:
     path: str
     why: str
     diff: tuple[str, ...] = ()
+
+    @property
+    def is_surplus(self) -> bool:
+        """Whether the file is to be deleted: nothing writes it."""
+        return self.why == _SURPLUS
 
 
 def artifacts(
@@ -141,7 +147,7 @@ def verify(
     folder = root / config.dbc
     present_dbcs = [*folder.glob(f"{config.name}*.dbc"), *folder.glob(f"*/{config.name}*.dbc")]
     surplus = {path.relative_to(root).as_posix() for path in present_dbcs} - set(files)
-    return found + [Stale(name, "no longer generated: delete it") for name in sorted(surplus)]
+    return found + [Stale(name, _SURPLUS) for name in sorted(surplus)]
 
 
 def _bytes(path: Path) -> bytes | None:
@@ -153,9 +159,17 @@ def _bytes(path: Path) -> bytes | None:
         raise ReadError(f"{path}: cannot be read: {error.strerror}") from None
 
 
+def _text(data: bytes) -> str:
+    """A file of ours as text: UTF-8, or GBK where it is a Chinese DBC for Windows."""
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("gbk", "backslashreplace")
+
+
 def _short_diff(present: bytes, wanted: bytes) -> tuple[str, ...]:
     """The first differing lines, on disk first."""
-    old, new = (data.decode("utf-8", "replace").splitlines() for data in (present, wanted))
+    old, new = (_text(data).splitlines() for data in (present, wanted))
     lines = [
         line
         for line in difflib.unified_diff(old, new, lineterm="", n=0)

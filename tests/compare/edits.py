@@ -248,6 +248,23 @@ OF_CODES = (
         WIRE,
         "V2B_CMD_ALIV",
     ),
+    Edit(
+        "codes reversed",
+        swap(
+            'BSU_ConnectSt 1 "Connected" 2 "Not connected"',
+            'BSU_ConnectSt 1 "Not connected" 2 "Connected"',
+        ),
+        "code-meaning-not-reversed",
+        WIRE,
+        "BSU_ConnectSt",
+    ),
+    Edit(
+        "invalid code removed",
+        part(STATUS, ' 15 "Signal Invalid"', ""),
+        "code-no-value-same",
+        WIRE,
+        "V2B_CMD_ALIV",
+    ),
     Edit("code removed", part(CODES, ' 3 "Other"', ""), "code-present", WIRE, "BSU_Lock"),
     Edit("all codes removed", part(CODES, CODES, ""), "code-present", WIRE, "BSU_Lock"),
     Edit(

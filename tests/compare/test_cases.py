@@ -58,6 +58,7 @@ def test_a_change_taken_back_is_seen_by_a_promise_of_the_same_kind(promise: Prom
         "signal-range-not-narrowed": "signal-range-not-widened",
         "signal-range-not-widened": "signal-range-not-narrowed",
         "signal-bits-free": "signal-present",
+        "reserved-signal-present": "signal-added",
     }.get(promise.id, f"{first}-{mirrored.get(last, last)}")
     folder = CASES / promise.id
     items = compare(protocol(folder, "current"), protocol(folder, "previous"))

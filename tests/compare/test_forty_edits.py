@@ -43,6 +43,7 @@ NOT_IN_THIS_FILE = frozenset(
     {
         "message-extended-same",  # no identifier of it fits into 11 bits
         "message-frame-format-same",  # its attribute knows no CAN FD
+        "reserved-signal-present",  # it gives reserved bits no names
         "signal-float-same",  # no signal of it has 32 bits
         "frame-format-same",  # one attribute for each message, so no single edit
     }

@@ -80,6 +80,9 @@ def test_check_names_each_file_that_is_not_current_and_exits_1(small: Path) -> N
         "out/thermo-old.dbc: no longer generated: delete it",
     ]
     assert "Warmth" in result.stderr
+    last = result.stderr.splitlines()[-1]
+    assert "files are not current: dbcspec generate writes them; delete the 1 no longer" in last
+    assert last.startswith("2 of ")
     in_json = dbcspec(small, "check", "--json")
     assert in_json.returncode == 1
     assert [each["path"] for each in json.loads(in_json.stdout)] == [

@@ -71,6 +71,8 @@ def test_an_occurrence_has_all_that_is_known_of_it() -> None:
         "measure": 1.0,
         "text": "step of 0.25 s",
         "values": {"step": 0.25, "said": ""},
+        "is_open": False,
+        "errata": [],
     }
     assert rule["worst"] == rule["occurrences"][1]
 

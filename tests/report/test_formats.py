@@ -38,6 +38,25 @@ def test_a_finding_is_named_with_its_subject_in_every_format(format: str) -> Non
 
 
 @every_format
+def test_a_change_has_its_fingerprint_file_and_line_in_every_format(format: str) -> None:
+    text = render(PLAIN, format)
+    for each in PLAIN.items:
+        assert each.fingerprint in text
+        assert each.where.path in text
+    assert "17" in text
+
+
+@every_format
+def test_a_change_of_hundreds_is_one_finding_with_all_its_members(format: str) -> None:
+    members = ("Speed", "Torque", "Gear")
+    (one, other) = (item(members=members), item(members=("Speed", "Torque")))
+    assert one.fingerprint != other.fingerprint
+    text = render(dataclasses.replace(PLAIN, items=[one]), format)
+    assert one.fingerprint in text
+    assert format not in ("json", "html") or "Gear" in text
+
+
+@every_format
 def test_no_character_reaches_a_reader_that_it_cannot_see(format: str) -> None:
     text = render(hostile(), format)
     assert [c for c in text if ord(c) < 32 and c != "\n"] == []

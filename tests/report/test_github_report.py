@@ -42,7 +42,7 @@ def test_a_finding_is_shown_at_its_line_with_its_rule() -> None:
         "title": "signal-scale-same",
     }
     assert data.startswith("Speed: factor 0.4 → 0.5")
-    assert data.endswith("breaks sender and receiver")
+    assert data.endswith(f"breaks sender and receiver [{PLAIN.items[0].fingerprint}]")
     assert render(EMPTY, "github") == ""
 
 

@@ -33,11 +33,11 @@ def test_a_failure_lists_each_finding_on_a_line() -> None:
     (failure,) = first.result
     assert isinstance(failure, Failure)
     assert failure.type == "wire"
-    assert failure.message == "2 findings. A raw step keeps its physical value."
+    assert failure.message == "2 findings against: A raw step keeps its physical value."
     lines = (failure.text or "").splitlines()
     assert len(lines) == 2
     assert lines[0].startswith("spec/tables/01-state.yaml:17:9: Speed: factor 0.4 → 0.5")
-    assert lines[0].endswith("breaks sender and receiver")
+    assert lines[0].endswith(f"breaks sender and receiver [{PLAIN.items[0].fingerprint}]")
 
 
 def test_a_rule_that_nobody_listed_still_fails() -> None:

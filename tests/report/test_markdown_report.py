@@ -43,7 +43,9 @@ def test_each_message_has_a_table_below_one_line_of_summary() -> None:
     page = Page(text)
     assert "**4 findings: 2 wire, 1 source, 1 cosmetic. 1 breaks the sender, 2 break" in text
     assert page.tags.count("table") == len({item.group for item in PLAIN.items})
-    (*cells, promise) = page.rows[1]
+    (*cells, promise, where, fingerprint) = page.rows[1]
+    assert where == "spec/tables/01-state.yaml:17:9"
+    assert fingerprint == PLAIN.items[0].fingerprint
     assert cells == ["wire", "Speed", "factor 0.4 → 0.5", "sender and receiver"]
     assert promise == "signal-scale-same"
     assert "No findings." in render(EMPTY, "markdown")
@@ -63,7 +65,7 @@ def test_a_cell_shows_any_text_as_it_is_and_makes_no_cell_or_tag_of_it(text: str
     )
     page = Page(render(report, "markdown"))
     assert set(page.tags) <= ALLOWED
-    assert [len(row) for row in page.rows] == [5, 5]
+    assert [len(row) for row in page.rows] == [7, 7]
     if text.isprintable() and len(text) < 300:
         assert page.rows[1][1] == text.strip()
         assert page.rows[1][2] == f"unit {text}".strip()
@@ -74,7 +76,7 @@ def test_a_long_report_is_folded_and_still_made_of_whole_tables() -> None:
     page = Page(render(report, "markdown"))
     assert set(page.tags) <= ALLOWED | FOLDING
     assert page.tags.count("details") == len({item.group for item in report.items})
-    assert {len(row) for row in page.rows} == {5}
+    assert {len(row) for row in page.rows} == {7}
     assert len(page.rows) == len(report.items) + page.tags.count("table")
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+import shlex
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from dbcspec.artifacts import (
@@ -114,6 +115,17 @@ def _stale_lines(stale: Stale) -> Iterator[str]:
     yield from (f"    {line}" for line in stale.diff)
 
 
+def _mending(stale: Sequence[Stale], count: int, folder: Path) -> str:
+    """How many files are not current, and the command that mends them."""
+    where = "" if folder == Path() else f" -C {shlex.quote(str(folder))}"
+    surplus = sum(each.is_surplus for each in stale)
+    delete = f"; delete the {surplus} no longer generated" if surplus else ""
+    return (
+        f"{len(stale) - surplus} of {count} files are not current: dbcspec generate{where}"
+        f" writes them{delete}"
+    )
+
+
 def _counts(protocol: Protocol) -> dict[str, int]:
     return {
         "messages": len(protocol.messages),
@@ -133,6 +145,7 @@ def _check(options: argparse.Namespace) -> int:
         say(printable_json(found))
         return 1 if stale else 0
     if stale:
-        raise StaleArtifactError(*(line for each in stale for line in _stale_lines(each)))
+        lines = [line for each in stale for line in _stale_lines(each)]
+        raise StaleArtifactError(*lines, _mending(stale, len(files), options.project))
     say(f"{len(files)} files are current, digest {project.protocol.digest}")
     return 0

@@ -6,14 +6,20 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
+from dbcspec.compare.languages import plain
 from dbcspec.compare.pairing import Pairing, SignalPair
 from dbcspec.compare.promise import Change, Check
+from dbcspec.compare.senses import agree, means_no_value
 from dbcspec.compare.spec_only import both_are_specs, states
 from typedcan.model.naming import member_names
 from typedcan.model.protocol import Code, ValueTable
 
 _SHOWN = 4
 """Codes that a text names before it counts the rest; ``old`` and ``new`` have all."""
+
+
+_MOST_REVERSED = 64
+"""A table in which more codes than this differ is another one, not one turned round."""
 
 
 class Difference(Enum):
@@ -28,18 +34,18 @@ class Difference(Enum):
 class CodesPair:
     """Different value tables before and after, and the first signal that has them.
 
-    ``others`` is how many more signals have the same two tables: the change is one and told once.
+    ``others`` are further signals with the same two tables: the change is one and told once.
     """
 
     signal: SignalPair
-    others: int
+    others: tuple[SignalPair, ...]
     old: Mapping[int, Code]
     new: Mapping[int, Code]
 
     def change(self, text: str, old: str, new: str) -> Change:
         """A change of these codes."""
-        more = f", also of {self.others} more signals" if self.others > 1 else ""
-        more = ", also of 1 more signal" if self.others == 1 else more
+        more = f", also of {len(self.others)} more signals" if len(self.others) > 1 else ""
+        more = ", also of 1 more signal" if len(self.others) == 1 else more
         return Change(
             message=self.signal.new_message.name,
             subject=self.signal.new.name,
@@ -63,7 +69,7 @@ def code_pairs(pairing: Pairing) -> Iterator[CodesPair]:
             if not same[key]:
                 users.setdefault((old, new), []).append(signal)
     for (old, new), signals in users.items():
-        yield CodesPair(signals[0], len(signals) - 1, _by_value(old), _by_value(new))
+        yield CodesPair(signals[0], tuple(signals[1:]), _by_value(old), _by_value(new))
 
 
 def differing_in(difference: Difference, word: str, show: Callable[[Code, str], str]) -> Check:
@@ -78,7 +84,7 @@ def differing_in(difference: Difference, word: str, show: Callable[[Code, str], 
             shown = [
                 (value, show(codes.old[value], before[value]), show(codes.new[value], after[value]))
                 for value, way in _differences(pairing, codes).items()
-                if way is difference
+                if way is difference and value not in reversed_codes(pairing, codes)
             ]
             if shown:
                 steps = [f"{value} {was} → {now}" for value, was, now in shown]
@@ -87,6 +93,31 @@ def differing_in(difference: Difference, word: str, show: Callable[[Code, str], 
                 yield codes.change(f"{word} {shortened(steps)}", old, new)
 
     return check
+
+
+def reversed_codes(pairing: Pairing, codes: CodesPair) -> frozenset[int]:
+    """The codes that have changed places with another: each means what the other meant."""
+    common = [value for value in codes.old if value in codes.new]
+    different = [
+        value
+        for value in common
+        if not pairing.languages.same_meaning(codes.old[value], codes.new[value])
+    ]
+    if not 2 <= len(different) <= _MOST_REVERSED:
+        return frozenset()
+    return frozenset(
+        value
+        for value in different
+        for other in different
+        if value != other
+        and _same_label(codes.old[value], codes.new[other])
+        and _same_label(codes.old[other], codes.new[value])
+    )
+
+
+def _same_label(old: Code, new: Code) -> bool:
+    before, after = ({plain(code.label), plain(code.english)} - {""} for code in (old, new))
+    return not before.isdisjoint(after) or agree(old.english or old.label, new.english or new.label)
 
 
 def one_sided(codes: CodesPair, pairing: Pairing, *, removed: bool) -> list[Code]:
@@ -100,6 +131,10 @@ def one_sided(codes: CodesPair, pairing: Pairing, *, removed: bool) -> list[Code
     if both_are_specs(pairing):
         before, after = states(codes.signal.old), states(codes.signal.new)
         left_out = before - after if removed else after - before
+    else:
+        left_out = {
+            code.value for code in here.values() if means_no_value(code.english or code.label)
+        }
     return [code for value, code in here.items() if value not in there and value not in left_out]
 
 

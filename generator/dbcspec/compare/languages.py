@@ -10,6 +10,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable, Iterator
 
+from dbcspec.compare.senses import contradict
 from typedcan.model.protocol import Code, Protocol
 
 Text = tuple[str, str]
@@ -50,11 +51,11 @@ class Languages:
         """Whether two labels mean the same: they share a text, but for case and separators."""
         before = {plain(old.label), plain(old.english)} - {""}
         after = {plain(new.label), plain(new.english)} - {""}
-        return (
-            before == after
-            or not before.isdisjoint(after)
-            or self.is_translation((old.label, old.english), (new.label, new.english))
-        )
+        if before == after or not before.isdisjoint(after):
+            return True
+        if not self.is_translation((old.label, old.english), (new.label, new.english)):
+            return False
+        return not contradict(old.english or old.label, new.english or new.label)
 
     def is_translation(self, old: Text, new: Text) -> bool:
         """Whether both sides are in different languages, and these two texts with them."""

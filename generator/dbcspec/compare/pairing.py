@@ -2,23 +2,25 @@
 
 A message continues the one with the same identifier, else the one with the same name. Within a
 message a signal continues the one with the same name; within one identifier also the one on
-identical bits, so that renames are recognised. Only signals that differ are kept: what is equal
-breaks no promise, and is most of any real pair.
+identical bits, so that renames are recognised. Matched by place, bits go before names: so two
+spellings of one protocol are compared, and that is chosen where most names differ. Only signals
+that differ are kept: what is equal breaks no promise, and is most of any real pair.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from operator import attrgetter
-from typing import TypeVar
 
 from dbcspec.compare.languages import Languages
+from dbcspec.compare.matching import is_reordered, matched, roles
 from typedcan.model.layout import bits
 from typedcan.model.protocol import Bus, Message, Node, Protocol, Signal, ValueTable
 
-T = TypeVar("T")
+_FEWEST_RENAMED = 5
+"""Signals with other names that make another spelling of a protocol, not an edit of it."""
 
 _apart_from_codes: Callable[[Signal], tuple[object, ...]] = attrgetter(
     *(part.name for part in fields(Signal) if part.compare and part.name != "value_table")
@@ -71,6 +73,8 @@ class Pairing:
     buses: tuple[tuple[Bus, Bus], ...]
     removed_buses: tuple[Bus, ...]
     added_buses: tuple[Bus, ...]
+    by_place: bool = False
+    """Whether signals were matched by their bits before their names."""
 
     @cached_property
     def signals(self) -> tuple[SignalPair, ...]:
@@ -141,18 +145,24 @@ class Pairing:
         return tuple(self._node_names.get(node, node) for node in nodes)
 
 
-def pair(old: Protocol, new: Protocol) -> Pairing:
-    """Match two protocols, in a time that grows with their size, not with its square."""
-    messages, removed, added = _matched(
+def pair(old: Protocol, new: Protocol, *, by_place: bool | None = None) -> Pairing:
+    """Match two protocols, in a time that grows with their size, not with its square.
+
+    ``by_place`` tells whether bits go before names within one identifier; None: where most of the
+    signals on the same bits are called otherwise.
+    """
+    messages, removed, added = matched(
         old.messages, new.messages, attrgetter("frame_id", "extended"), attrgetter("name")
     )
-    nodes, removed_nodes, added_nodes = _matched(
-        old.nodes, new.nodes, attrgetter("name"), *_roles(old, new)
+    nodes, removed_nodes, added_nodes = matched(
+        old.nodes, new.nodes, attrgetter("name"), *roles(old, new)
     )
-    buses, removed_buses, added_buses = _matched(
+    buses, removed_buses, added_buses = matched(
         old.buses, new.buses, attrgetter("name"), lambda bus: frozenset(bus.nodes)
     )
-    matcher = _SignalMatcher()
+    if by_place is None:
+        by_place = _most_are_renamed(messages)
+    matcher = _SignalMatcher(by_place=by_place)
     return Pairing(
         old=old,
         new=new,
@@ -165,27 +175,45 @@ def pair(old: Protocol, new: Protocol) -> Pairing:
         buses=buses,
         removed_buses=removed_buses,
         added_buses=added_buses,
+        by_place=by_place,
     )
+
+
+def _most_are_renamed(messages: Iterable[tuple[Message, Message]]) -> bool:
+    """Whether more signals of one identifier share their bits alone than share their names."""
+    same_name = same_place = 0
+    for old, new in messages:
+        before, after = ({signal.name for signal in side.signals} for side in (old, new))
+        same_name += len(before & after)
+        if before != after and _same_identifier(old, new):
+            by_bits = {_place(signal) for signal in old.signals if signal.name not in after}
+            rest = (signal for signal in new.signals if signal.name not in before)
+            same_place += sum(_place(signal) in by_bits for signal in rest)
+    return same_place > same_name and same_place >= _FEWEST_RENAMED
 
 
 class _SignalMatcher:
     """Matches the signals of messages; remembers which value tables are the same."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, by_place: bool) -> None:
+        self._by_place = by_place
         self._tables: dict[tuple[int, int], bool] = {}
 
     def message(self, old: Message, new: Message) -> MessagePair:
-        if [signal.name for signal in old.signals] == [signal.name for signal in new.signals]:
-            matched: Iterable[tuple[Signal, Signal]] = zip(old.signals, new.signals, strict=True)
+        names = ([signal.name for signal in side.signals] for side in (old, new))
+        if not self._by_place and next(names) == next(names):
+            both: Iterable[tuple[Signal, Signal]] = zip(old.signals, new.signals, strict=True)
             removed: tuple[Signal, ...] = ()
             added: tuple[Signal, ...] = ()
             reordered = False
         else:
-            same_identifier = (old.frame_id, old.extended) == (new.frame_id, new.extended)
-            keys = (attrgetter("name"), _place) if same_identifier else (attrgetter("name"),)
-            matched, removed, added = _matched(old.signals, new.signals, *keys)
-            reordered = is_reordered(matched, new.signals)
-        different = [pair for pair in matched if not self._same(*pair)]
+            keys: tuple[Callable[[Signal], Hashable], ...] = (attrgetter("name"),)
+            if _same_identifier(old, new):
+                by_bits = (_place, *keys, _first_bit)
+                keys = by_bits if self._by_place else (*keys, _place)
+            both, removed, added = matched(old.signals, new.signals, *keys)
+            reordered = is_reordered(both, new.signals)
+        different = [pair for pair in both if not self._same(*pair)]
         renamed = {
             before.name: after.name for before, after in different if before.name != after.name
         }
@@ -215,61 +243,13 @@ class _SignalMatcher:
         return self._tables[key]
 
 
-def is_reordered(matched: Sequence[tuple[T, T]], new: Sequence[T]) -> bool:
-    """Whether things that are in both stand in another order than before."""
-    position = {id(item): index for index, item in enumerate(new)}
-    indexes = [position[id(after)] for _, after in matched]
-    return indexes != sorted(indexes)
+def _same_identifier(old: Message, new: Message) -> bool:
+    return (old.frame_id, old.extended) == (new.frame_id, new.extended)
 
 
 def _place(signal: Signal) -> Hashable:
     return bits(signal), signal.selectors
 
 
-def _roles(old: Protocol, new: Protocol) -> tuple[Callable[[Node], Hashable], ...]:
-    """What a renamed node is known by: what it sends, its address, what it receives.
-
-    A node without the one or the other is not recognised by it.
-    """
-    sent: dict[int, frozenset[int]] = {}
-    heard: dict[int, frozenset[int]] = {}
-    for side in (old, new):
-        sends: dict[str, set[int]] = {}
-        hears: dict[str, set[int]] = {}
-        for message in side.messages:
-            for sender in message.senders or ("",):
-                sends.setdefault(sender, set()).add(message.frame_id)
-            for receiver in message.receivers:
-                hears.setdefault(receiver, set()).add(message.frame_id)
-        for node in side.nodes:
-            sent[id(node)] = frozenset(sends.get(node.name, ()))
-            heard[id(node)] = frozenset(hears.get(node.name, ()))
-    return (
-        lambda node: sent[id(node)] or id(node),
-        lambda node: ("address", node.address) if node.address is not None else id(node),
-        lambda node: heard[id(node)] or id(node),
-    )
-
-
-def _matched(
-    old: Sequence[T], new: Sequence[T], *keys: Callable[[T], Hashable]
-) -> tuple[tuple[tuple[T, T], ...], tuple[T, ...], tuple[T, ...]]:
-    """Pairs by the first key, the rest by the second, and so on; then what is left of each."""
-    found: dict[int, int] = {}
-    taken: set[int] = set()
-    for key in keys:
-        if len(found) == len(old) or len(taken) == len(new):
-            break
-        waiting: dict[Hashable, list[int]] = {}
-        for index in reversed(range(len(new))):
-            if index not in taken:
-                waiting.setdefault(key(new[index]), []).append(index)
-        for index, item in enumerate(old):
-            if index not in found and (candidates := waiting.get(key(item))):
-                found[index] = candidates.pop()
-                taken.add(found[index])
-    return (
-        tuple((old[index], new[found[index]]) for index in sorted(found)),
-        tuple(item for index, item in enumerate(old) if index not in found),
-        tuple(item for index, item in enumerate(new) if index not in taken),
-    )
+def _first_bit(signal: Signal) -> Hashable:
+    return signal.start, signal.byte_order, signal.selectors

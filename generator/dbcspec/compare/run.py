@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from dbcspec.compare.advice import advice_on
 from dbcspec.compare.pairing import Pairing, pair
 from dbcspec.compare.promise import Change, Promise
 from dbcspec.compare.registry import PROMISES
+from dbcspec.compare.sums import summed
 from typedcan.model.protocol import Protocol
 from typedcan.report.item import LEVELS, Item, RuleInfo
 
 RULES: tuple[RuleInfo, ...] = tuple(
-    RuleInfo(promise.id, promise.purpose, promise.class_.word) for promise in PROMISES
+    RuleInfo(promise.id, promise.purpose, promise.class_.word, *advice_on(promise.id))
+    for promise in PROMISES
 )
 """The promises as reports describe them."""
 
@@ -19,16 +22,22 @@ _Place = tuple[float, float]
 
 
 def compare(old: Protocol, new: Protocol, promises: Iterable[Promise] = PROMISES) -> list[Item]:
-    """Every promise that ``new`` breaks, in the order of its messages and their signals.
+    """Every promise that ``new`` breaks; see `findings`."""
+    return findings(pair(old, new), promises)
 
-    What belongs to no message comes first, what is gone stands where it was; of one signal the
-    gravest comes first. What only one side can say at all (`Protocol.carries`) is no difference.
+
+def findings(pairing: Pairing, promises: Iterable[Promise] = PROMISES) -> list[Item]:
+    """Every broken promise, in the order of the new protocol's messages and their signals.
+
+    Of protocols matched by place, what differs everywhere is summed up. What belongs to no message
+    comes first, what is gone stands where it was; of one signal the gravest comes first. What only
+    one side can say at all (`Protocol.carries`) is no difference.
     """
-    pairing = pair(old, new)
     found = [(promise, change) for promise in promises for change in promise.changes(pairing)]
     places = _places(pairing, {change.message for _, change in found})
     found.sort(key=lambda entry: (*_place(places, entry[1]), -entry[0].class_))
-    return [_item(promise, change) for promise, change in found]
+    items = [_item(promise, change) for promise, change in found]
+    return summed(items) if pairing.by_place else items
 
 
 def worst(items: Iterable[Item]) -> str | None:

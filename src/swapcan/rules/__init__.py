@@ -12,17 +12,20 @@ from swapcan.messages import (
     B2V_ST4,
     B2V_ST5,
     B2V_ST6,
+    BSU_BMS_0,
     V2B_CMD,
+    B2V_BattInfo1,
     B2V_SysCode1,
     B2V_Temp,
     B2V_Ucell,
+    V2B_RQData,
 )
 from swapcan.rules import charging, cooling, notices, pack, texts, voltage
 from swapcan.rules.voltage import node_awake, node_silence, relays_before_command, start_state
 from swapcan.rules.wording import worded
 from typedcan.judge.rule import Rule
 from typedcan.judge.rules import rules_for
-from typedcan.judge.scope import Scope
+from typedcan.judge.scope import OpenCodes, Scope
 from typedcan.wire.message import Message
 
 _COMMANDS = ("hv_on_off", "hv_acc_on_off", "heat_on_off")
@@ -54,6 +57,20 @@ SCOPE = Scope(
     ),
     # It sleeps after high voltage is off (5.2.1.4).
     may_sleep=frozenset({node_awake.PACK}),
+    open_codes={
+        # An unused field is filled with 0 by many; the level that E54 asks for has no meaning.
+        **dict.fromkeys(
+            (
+                *_names(B2V_BattInfo1, "batt_type", "cool_type"),
+                *_names(V2B_RQData, "rq_batt_info", "rq_sys_code"),
+            ),
+            OpenCodes((0,)),
+        ),
+        **dict.fromkeys(_names(B2V_ST0, "flt_chg_plug_ot"), OpenCodes((3,), ("E54",))),
+        **dict.fromkeys(_names(BSU_BMS_0, "connect_st"), OpenCodes((0,), ("E20",))),
+    },
+    # 15 is no value of theirs; nothing says that all others are (E48).
+    open_ends=frozenset((*_names(B2V_ST1, "aliv"), *_names(V2B_CMD, "aliv"))),
     transfers={"cell_voltages": "cells", "probe_temperatures": "probes"},
 )
 """What the tables leave open."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from swapcan.rules.left_open import LEFT_OPEN
 from typedcan.judge.rule import Rule, Severity
 from typedcan.report.language import Text
 
@@ -18,12 +19,14 @@ class Wording:
     title: Text | None = None
     purpose: Text | None = None
     tolerances: Mapping[str, Text] = field(default_factory=dict[str, Text])
+    errata: tuple[str, ...] = ()
 
 
 def worded(rule: Rule) -> Rule:
     """A rule in the words of this standard; raises `KeyError` where there are none."""
+    left_open = (*rule.left_open, *LEFT_OPEN.get(rule.id, ()))
     if rule.id in CLAUSES:
-        return replace(rule, clause=CLAUSES[rule.id])
+        return replace(rule, clause=CLAUSES[rule.id], left_open=left_open)
     words = WORDINGS[rule.id]
     return replace(
         rule,
@@ -35,6 +38,8 @@ def worded(rule: Rule) -> Rule:
             replace(each, text=words.tolerances.get(each.name, each.text))
             for each in rule.tolerances
         ),
+        errata=words.errata,
+        left_open=left_open,
     )
 
 
@@ -85,11 +90,14 @@ WORDINGS: Mapping[str, Wording] = {
     "reserved-bits": Wording(
         purpose=Text(
             "A later edition may give them a meaning, which is then taken from what is sent "
-            "today. Filled with 0 is printed in tables 3 and 14, and holds for the other reserved "
-            "fields.",
+            "today, and newer ones do so. Filled with 0 is printed in tables 3 and 14, and read "
+            "for the other reserved fields.",
             "后续版本可能定义预留位的含义,届时会按现在发送的内容解释。"
-            "表 3 和表 14 规定预留填充 0,其他预留字段同样适用。",
+            "新版本已使用部分预留位。"
+            "表 3 和表 14 规定预留填充 0,其他预留字段按此理解。",
         ),
+        severity=Severity.SHOULD,
+        errata=("E07", "E08"),
         clause="A.1; Table 3 rows 3 and 4 (5.1.3), Table 14 row 21 (5.2.1)",
     ),
     "unassigned-bits": Wording(
@@ -164,10 +172,13 @@ WORDINGS: Mapping[str, Wording] = {
     "answer-unasked": Wording(
         purpose=Text(
             "VIN, pack code and basic data are events: they are sent at the wish of the other "
-            "node and only load the bus otherwise.",
-            "VIN、电池包编码和电池系统基本参数属于事件型报文,按对方需求发送;否则只会增加总线负载。",
+            "node and only load the bus otherwise. A.1 prints periods for them as well: who sends "
+            "one all the time at its period keeps to that.",
+            "VIN、电池包编码和电池系统基本参数属于事件型报文,按对方需求发送;否则只会增加总线负载。"
+            "表 A.1 也规定了这些报文的周期:始终按该周期发送亦符合标准。",
         ),
         clause="5.2.2; 5.2.3; A.1 (type Event)",
+        errata=("E56",),
         tolerances={
             "answer-unasked.seconds": Text(
                 "From the withdrawal of a request to the last frame of its answers: twice the "

@@ -189,4 +189,4 @@ def _status(judged: Sequence[Judged], choice: Choice) -> int:
 
 def _is_broken(judgement: Judgement, severity: Severity) -> bool:
     failed = judgement.of_status(Status.FAILED)
-    return any(result.rule.severity is severity for result in failed)
+    return any(result.severity is severity for result in failed)

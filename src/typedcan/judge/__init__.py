@@ -8,7 +8,7 @@ For example, with a protocol that `typedcan.dynamic.typed_protocol` made, or a g
         print(result.rule.id, result.count, result.first)
 """
 
-from typedcan.judge.findings import Occurrence, Subject
+from typedcan.judge.findings import LeftOpen, Occurrence, Subject
 from typedcan.judge.judge import Judge, JudgeError
 from typedcan.judge.judgement import Judgement, RuleResult, Status, Verdict
 from typedcan.judge.logs import judge_log
@@ -21,6 +21,7 @@ __all__ = [
     "Judge",
     "JudgeError",
     "Judgement",
+    "LeftOpen",
     "Occurrence",
     "Rule",
     "RuleResult",

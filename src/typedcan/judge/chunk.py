@@ -72,6 +72,8 @@ class LogEnd:
         The last frame of each message, and of each place in the cycle of those of several.
     traffic
         How many frames of each message came, and on which channel.
+    by_frame
+        The messages of several frames a cycle of which one frame came each period.
     """
 
     time: float
@@ -80,3 +82,4 @@ class LogEnd:
     silent: Sequence[Silence]
     stopped: Sequence[Stopped]
     traffic: Traffic
+    by_frame: frozenset[type[Message]]

@@ -35,6 +35,21 @@ class Subject(NamedTuple):
         return " ".join(part for part in (self.signal or self.message, self.detail) if part)
 
 
+class LeftOpen(NamedTuple):
+    """A part of a rule that rests on what the standard leaves open.
+
+    Parameters
+    ----------
+    name
+        The message or the signal that it is about, or a subject as `str` has it.
+    errata
+        The ids of the errata that say how it is read here, where there are some.
+    """
+
+    name: str
+    errata: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
     """Something that breaks a rule, from its first frame to its last.
@@ -53,6 +68,10 @@ class Occurrence:
         How bad it is, for finding the worst of a rule; larger is worse.
     text, values
         What is wrong, and what to fill in; `says` puts them together.
+    is_open
+        Whether it is about a part of the rule that is left open: then nothing printed is broken.
+    errata
+        What that part rests on.
     """
 
     subject: Subject
@@ -63,6 +82,8 @@ class Occurrence:
     measure: float = 0.0
     text: Text
     values: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    is_open: bool = False
+    errata: tuple[str, ...] = ()
 
     def says(self, language: Language = "en") -> str:
         """What is wrong, in words."""
@@ -87,15 +108,26 @@ class Findings(Limits):
         passed over.
     limits
         Tolerances by name, where they are not to have their own value.
+    left_open
+        The parts of the rule that are no demand.
     """
 
-    def __init__(self, nodes: Sequence[str], limits: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        nodes: Sequence[str],
+        limits: Mapping[str, float] | None = None,
+        left_open: Sequence[LeftOpen] = (),
+    ) -> None:
         super().__init__(limits)
         self.nodes = frozenset(nodes)
+        self._judged = tuple(nodes)
+        self._errata = dict(left_open)
         self.first_node = nodes[0]
         """Whom findings are noted for that are nobody's fault."""
         self.examined: Counter[str] = Counter()
         self.count = 0
+        self.open_count = 0
+        """How many of them rest on what is left open."""
         self.frames = 0
         self.worst: Occurrence | None = None
         self.kept: list[Occurrence] = []
@@ -113,6 +145,26 @@ class Findings(Limits):
         """Say that something is wrong."""
         if found.subject.node in self.nodes:
             self._add(found)
+
+    def add_frames(self, message: str, count: int) -> None:
+        """Count so many occurrences of a frame each, of one message, that are not kept."""
+        self.count += count
+        self.frames += count
+        self.open_count += count if message in self._errata else 0
+
+    def apart(self) -> Findings:
+        """Others like these, for a reading that is yet to prove the right one."""
+        return Findings(self._judged, self.given, tuple(map(LeftOpen._make, self._errata.items())))
+
+    def take(self, other: Findings) -> None:
+        """Take over what was found `apart`."""
+        self.examined += other.examined
+        self.kept += other.kept[: KEPT - len(self.kept)]
+        self.count += other.count
+        self.open_count += other.open_count
+        self.frames += other.frames
+        if other.worst is not None:
+            self.worst = other.worst if self.worst is None else _worse(self.worst, other.worst)
 
     def rows(
         self,
@@ -180,6 +232,10 @@ class Findings(Limits):
 
     def _add(self, found: Occurrence) -> int:
         """Count an occurrence; where it is kept, -1 for nowhere."""
+        for name in (str(found.subject), found.subject.signal, found.subject.message):
+            if name in self._errata and not found.is_open:
+                found = replace(found, is_open=True, errata=self._errata[name])
+                self.open_count += 1
         self.count += 1
         self.frames += found.frames
         self.worst = found if self.worst is None else _worse(self.worst, found)

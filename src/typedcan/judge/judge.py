@@ -92,7 +92,9 @@ class Judge:
         self._seals = seals_of(protocol.model.messages, algorithms)
         _check(every, self.nodes, self._limits.given, (*rules, *known))
         judged = [node for node in every if node in self.nodes]
-        self._findings = [(rule, Findings(judged, self._limits.given)) for rule in rules]
+        self._findings = [
+            (rule, Findings(judged, self._limits.given, rule.left_open)) for rule in rules
+        ]
         self._watchers = [
             rule.watch(findings)
             for rule, findings in self._findings
@@ -135,6 +137,7 @@ class Judge:
             silent=presences.silent_at(self._end),
             stopped=tuple(self._steps.stopped()),
             traffic=self._traffic,
+            by_frame=self._steps.by_frame(),
         )
         for watcher in self._watchers:
             watcher.finish(end)
@@ -150,7 +153,7 @@ class Judge:
             nodes=self.nodes,
             seen=tuple(node for node in nodes_of(self._protocol) if node in seen),
             results=tuple(_result(rule, findings) for rule, findings in self._findings),
-            periods=self._periods.finish(presences.messages),
+            periods=self._periods.finish(presences.messages, end.by_frame),
             load=self._load.finish(self._end, self._traffic),
             limits=self._limits.given,
             damage=tuple(damage),
@@ -263,6 +266,7 @@ def _result(rule: Rule, findings: Findings) -> RuleResult:
         frames=findings.frames,
         occurrences=tuple(kept),
         worst=findings.worst,
+        open_count=findings.open_count,
     )
 
 

@@ -47,6 +47,8 @@ class RuleResult:
         The first of them, by time; see `typedcan.judge.findings.KEPT`.
     worst
         The worst, whether among those or not.
+    open_count
+        Those of ``count`` that rest on what the standard leaves open.
     """
 
     rule: Rule
@@ -55,12 +57,19 @@ class RuleResult:
     frames: int
     occurrences: tuple[Occurrence, ...]
     worst: Occurrence | None
+    open_count: int = 0
+
+    @property
+    def severity(self) -> Severity:
+        """How grave what was found is: the rule's own, but where all of it is left open."""
+        is_open = self.count > 0 and self.count == self.open_count
+        return min(self.rule.severity, Severity.SHOULD) if is_open else self.rule.severity
 
     @property
     def status(self) -> Status:
         """What became of it."""
         if self.count:
-            return Status.NOTED if self.rule.severity is Severity.INFO else Status.FAILED
+            return Status.NOTED if self.severity is Severity.INFO else Status.FAILED
         return Status.PASSED if self.examined else Status.NOT_JUDGED
 
     @property
@@ -119,7 +128,7 @@ class Judgement:
     def verdict(self) -> Verdict:
         """Not judged where a judged node was not seen, unless what is there is wrong already."""
         failed = any(
-            result.status is Status.FAILED and result.rule.severity is Severity.MUST
+            result.status is Status.FAILED and result.severity is Severity.MUST
             for result in self.results
         )
         if failed:

@@ -9,7 +9,7 @@ from enum import IntEnum
 from typing import ClassVar
 
 from typedcan.judge.chunk import Chunk, LogEnd
-from typedcan.judge.findings import Findings
+from typedcan.judge.findings import Findings, LeftOpen
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
 
@@ -69,6 +69,11 @@ class Rule:
         The nodes that it judges.
     tolerances
         What it allows; the values may be others for one run.
+    errata
+        What the whole rule rests on where the standard needed a reading; a demand rests on none
+        that fills a gap or makes a choice.
+    left_open
+        Parts of it that rest on such errata: what is found there is a recommendation at most.
     watch
         Makes what watches one log.
     """
@@ -80,4 +85,6 @@ class Rule:
     severity: Severity
     judges: tuple[str, ...]
     tolerances: tuple[Tolerance, ...] = ()
+    errata: tuple[str, ...] = ()
+    left_open: tuple[LeftOpen, ...] = ()
     watch: Callable[[Findings], Watcher]

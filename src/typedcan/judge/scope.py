@@ -4,6 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
+
+
+class OpenCodes(NamedTuple):
+    """Codes that no value table has, and that some send all the same for a reason."""
+
+    codes: tuple[int, ...]
+    errata: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,6 +30,10 @@ class Scope:
         Signals that may have no value for as long as they like.
     may_sleep
         Nodes that may be silent while others send.
+    open_codes
+        By names of signals, such codes: to send one breaks no demand.
+    open_ends
+        Counters of which it is not said where they begin anew.
     transfers
         What transfers are called in the ids of their rules, by their names; one without is called
         as it is.
@@ -32,4 +44,6 @@ class Scope:
     reserved_used: frozenset[str] = frozenset()
     without_value: frozenset[str] = frozenset()
     may_sleep: frozenset[str] = frozenset()
+    open_codes: Mapping[str, OpenCodes] = field(default_factory=dict[str, OpenCodes])
+    open_ends: frozenset[str] = frozenset()
     transfers: Mapping[str, str] = field(default_factory=dict[str, str])

@@ -6,7 +6,8 @@ from functools import cache
 
 import jinja2
 
-from typedcan.report.item import LEVELS, Report
+from typedcan.report.item import LEVELS, LINT_LEVELS, Report
+from typedcan.report.summary import has_summary, summary_lines
 from typedcan.report.texts import (
     MEANINGS,
     WHOLE,
@@ -51,4 +52,6 @@ def to_html(report: Report) -> str:
         broken=broken,
         details=details,
         purposes=purposes(report),
+        summary=summary_lines(report) if has_summary(report) else [],
+        promised=lambda item: item.level not in LINT_LEVELS,
     )

@@ -16,6 +16,7 @@ def to_json(report: Report) -> str:
         {
             "version": VERSION,
             "title": report.title,
+            "notes": list(report.notes),
             "counts": {level: counts.get(level, 0) for level in LEVELS},
             "findings": [_finding(item) for item in report.items],
         }
@@ -32,6 +33,7 @@ def _finding(item: Item) -> dict[str, object]:
         "breaks": item.breaks,
         "old": item.old,
         "new": item.new,
+        "members": list(item.members),
         "path": item.where.path,
         "line": item.where.line,
         "column": item.where.column,

@@ -48,11 +48,12 @@ def _case(suite: ET.Element, rule: RuleInfo, why: str, items: Sequence[Item]) ->
         return
     if items[0].where.path:
         case.set("file", printable(slashed(items[0].where.path)))
+    against = f" against: {why}" if why else ""
     failure = ET.SubElement(
         case,
         "failure",
         {
-            "message": printable(f"{plural(len(items), 'finding')}. {why}".rstrip()),
+            "message": printable(f"{plural(len(items), 'finding')}{against}"),
             "type": gravest(items),
         },
     )

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from typedcan.report.item import LINT_LEVELS, Item, Report
+from typedcan.report.summary import has_summary, summary_lines
 from typedcan.report.texts import (
     WHOLE,
     broken,
@@ -47,6 +48,9 @@ def to_markdown(report: Report) -> str:
         f"{part[0].upper()}{part[1:]}" for part in (counted(report), casualties(report)) if part
     )
     text = f"### {escaped(report.title)}\n\n**{summary}.**\n"
+    text += "".join(f"\n{escaped(note)}\n" for note in report.notes)
+    if has_summary(report):
+        text += _summary(report)
     groups = grouped(report.items)
     compared = any(item.level not in LINT_LEVELS for item in report.items)
     shown = 0
@@ -65,6 +69,13 @@ def to_markdown(report: Report) -> str:
     if left := len(report.items) - shown:
         text += f"\n{plural(left, 'more finding')} would not fit here; other formats have all.\n"
     return text
+
+
+def _summary(report: Report) -> str:
+    lines = []
+    for level, told_of in summary_lines(report):
+        lines.append(f"- **{level}** {escaped(told_of)}" if level else f"  - {escaped(told_of)}")
+    return "\n" + "\n".join(lines) + "\n"
 
 
 def escaped(text: str) -> str:
@@ -87,7 +98,7 @@ def _section(heading: str, table: str, items: Sequence[Item], *, folded: bool) -
 
 def _table(items: Sequence[Item], *, compared: bool) -> str:
     if compared:
-        heads = ["class", "what", "change", "breaks", "promise"]
+        heads = ["class", "what", "change", "breaks", "promise", "where", "fingerprint"]
         rows = [_compared(item) for item in items]
     else:
         heads = ["where", "finding", "rule"]
@@ -103,6 +114,8 @@ def _compared(item: Item) -> list[str]:
         escaped(told(item)),
         broken(item),
         escaped(item.rule),
+        _where(item),
+        item.fingerprint,
     ]
 
 

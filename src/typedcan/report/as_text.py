@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from typedcan.report.item import Item, Report
+from typedcan.report.summary import has_summary, summary_lines
 from typedcan.report.texts import WHOLE, broken, casualties, counted, grouped, named, told
 from typedcan.shell.printing import printable
 
@@ -30,6 +31,13 @@ def to_text(report: Report, *, colour: bool = False, ascii_only: bool = False) -
     an arrow. A long value is cut; the formats for machines have the whole of it.
     """
     lines = [_painted(printable(report.title), _BOLD, colour=colour), ""]
+    lines[1:1] = [printable(note) for note in report.notes]
+    if has_summary(report):
+        lines[-1:] = [_totals(report)]
+        for level, told_of in summary_lines(report):
+            shown = _painted(level.ljust(_WIDEST_LEVEL), _STYLES.get(level, _DIM), colour=colour)
+            lines.append(f"{shown}{told_of}" if level else f"    {told_of}")
+        lines.append("")
     groups = grouped(report.items)
     for group, items in groups.items():
         if len(groups) > 1 or group:
@@ -37,9 +45,13 @@ def to_text(report: Report, *, colour: bool = False, ascii_only: bool = False) -
         for item in items:
             lines += _finding(item, colour=colour)
         lines.append("")
-    lines.append("; ".join(filter(None, (counted(report), casualties(report)))))
+    lines.append(_totals(report))
     text = "\n".join(lines) + "\n"
     return text.replace("→", "->") if ascii_only else text
+
+
+def _totals(report: Report) -> str:
+    return "; ".join(filter(None, (counted(report), casualties(report))))
 
 
 def _finding(item: Item, *, colour: bool) -> Iterator[str]:

@@ -21,7 +21,7 @@ class Item:
 
     ``group`` is the message it belongs to, or "" for the protocol as a whole; ``subject`` what
     is spoken of; ``breaks`` names the side that a change breaks; ``old`` and ``new`` are empty
-    where there is nothing to compare.
+    where there is nothing to compare; ``members`` names each of several findings that are one here.
     """
 
     rule: str
@@ -33,30 +33,41 @@ class Item:
     breaks: str = ""
     old: str = ""
     new: str = ""
+    members: tuple[str, ...] = ()
 
     @property
     def fingerprint(self) -> str:
-        """Eight hexadecimal digits that stay while rule, subject, old and new stay."""
-        parts = (self.rule, self.group, self.subject, self.old, self.new or self.text)
+        """Eight hexadecimal digits that stay while rule, subject, members, old and new stay."""
+        change = self.old, self.new or self.text
+        parts = (self.rule, self.group, self.subject, *change, *self.members)
         return hashlib.sha256("\0".join(parts).encode("utf-8", "surrogatepass")).hexdigest()[:8]
 
 
 @dataclass(frozen=True, slots=True)
 class RuleInfo:
-    """A rule as reports describe it."""
+    """A rule as reports describe it.
+
+    ``heading`` is what summaries call its findings, ``advice`` what is to be done about them.
+    """
 
     id: str
     purpose: str
     level: str
+    heading: str = ""
+    advice: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Report:
-    """All findings of one run, in the order in which they are shown."""
+    """All findings of one run, in the order in which they are shown.
+
+    ``notes`` say how it was looked at, where that is not as usual.
+    """
 
     title: str
     items: Sequence[Item]
     rules: Sequence[RuleInfo]
+    notes: Sequence[str] = ()
 
     def counts(self) -> dict[str, int]:
         """How many items each level has, gravest first, empty levels left out."""

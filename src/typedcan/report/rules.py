@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 
 from typedcan.model.errors import ReadError
 from typedcan.report.as_markdown import escaped
@@ -27,7 +28,7 @@ def _text(rules: Sequence[RuleInfo]) -> str:
 
 
 def _json(rules: Sequence[RuleInfo]) -> str:
-    return dump([{"id": rule.id, "level": rule.level, "purpose": rule.purpose} for rule in rules])
+    return dump([asdict(rule) for rule in rules])
 
 
 def _markdown(rules: Sequence[RuleInfo]) -> str:

@@ -97,9 +97,14 @@ def told(item: Item, *, longest: int | None = None) -> str:
 
 
 def sentence(item: Item, *, longest: int | None = None) -> str:
-    """What happened to what and whom it breaks, on one line; see `told` for ``longest``."""
+    """What happened to what and whom it breaks, on one line; see `told` for ``longest``.
+
+    A change ends with its fingerprint, from which an approval is written.
+    """
     whom = broken(item)
-    return f"{named(item)}{told(item, longest=longest)}{f'; breaks {whom}' if whom else ''}"
+    compared = f" [{item.fingerprint}]" if item.level not in LINT_LEVELS else ""
+    breaks = f"; breaks {whom}" if whom else ""
+    return f"{named(item)}{told(item, longest=longest)}{breaks}{compared}"
 
 
 def named(item: Item) -> str:

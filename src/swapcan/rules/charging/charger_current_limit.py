@@ -30,7 +30,7 @@ RULE = Rule(
         "电池低温、高温或接近充满时,BMU 会降低电流设定值。",
     ),
     clause="Table 18 row 2 (5.3), Table 19 row 2 (5.4)",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
     judges=("CHG",),
     tolerances=_SLACK.all,
     watch=ChargerCurrentLimit,

@@ -30,7 +30,7 @@ RULE = Rule(
         "电压设定值用于保护电芯,充电机超出会导致过充。",
     ),
     clause="Table 18 row 1 (5.3), Table 19 row 1 (5.4)",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
     judges=("CHG",),
     tolerances=_SLACK.all,
     watch=ChargerVoltageLimit,

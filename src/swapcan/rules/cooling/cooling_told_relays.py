@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from swapcan.messages import B2V_ST0, BMS_TMS_0, HvRelayState, RelayState
+from swapcan.rules.voltage.charge_path import MAIN, ChargePath
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
@@ -43,13 +44,17 @@ class CoolingToldRelays(LastingWatcher):
         seconds = findings.limit(_SECONDS)
         self._open = self.lasting(_SUBJECT, seconds, BMS_TMS_0)
         self._closed = self.lasting(_SUBJECT, seconds, BMS_TMS_0)
+        self._path = ChargePath()
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the state of the relays."""
         series = chunk.sound(BMS_TMS_0)
         relays = LastKnown(chunk.sound(B2V_ST0), series)
-        main = [relays.raw(field) for field in ("st_main_pos", "st_main_neg")]
+        main = [relays.raw(field) for field in MAIN]
         is_open = relays.known & ((main[0] == RelayState.OPEN) | (main[1] == RelayState.OPEN))
+        for for_charging in self._path.feed(chunk).values():
+            if len(for_charging):
+                is_open &= ~for_charging[relays.rows]
         is_closed = relays.known & (main[0] == RelayState.CLOSED) & (main[1] == RelayState.CLOSED)
         told = series.raw("hv_rly_sts")
         self._open.feed(series, is_open, told == HvRelayState.CLOSED, partial(_describe, _OPEN))
@@ -65,8 +70,8 @@ RULE = Rule(
     title=Text("The cooling unit is told the main relays", "发给水冷机组的高压继电器状态属实"),
     purpose=Text(
         "The unit starts its compressor where it is told that there is high voltage. Which relay "
-        "is meant is not printed: the main ones are read.",
-        "机组据此判断能否起动压缩机。标准未说明所指继电器,按主继电器理解。",
+        "is meant is not printed: the main ones are read, but for one that opened for charging.",
+        "机组据此判断能否起动压缩机。标准未说明所指继电器,按主继电器理解,因充电而断开的除外。",
     ),
     clause="Table 19 row 4 (5.5), Table 2 rows 1 and 2 (5.1.2)",
     severity=Severity.SHOULD,

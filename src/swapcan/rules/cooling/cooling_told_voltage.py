@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swapcan.messages import B2V_ST3, BMS_TMS_0
+from swapcan.messages import B2V_ST3, BMS_TMS_0, HvRelayState
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
@@ -65,7 +65,9 @@ class CoolingToldVoltage(LastingWatcher):
             np.abs(told - battery) - self._share * battery, np.abs(told - out) - self._share * out
         )
         excess -= self._voltage
-        judged = ~np.isnan(excess)
+        # While the relays are open some tell that there is no voltage, or none to tell.
+        nothing = np.isin(series.raw("volt"), (0, 0xFFFF))
+        judged = ~np.isnan(excess) & ~(nothing & (series.raw("hv_rly_sts") == HvRelayState.OPEN))
 
         def describe(row: int) -> Said:
             return _DIFFERS, {
@@ -86,7 +88,8 @@ RULE = Rule(
         "机组据此对压缩机作过压、欠压保护;该信号高字节在前,字节序与分辨率容易出错。",
     ),
     clause="Table 19 row 5 (5.5), Table 1 rows 4 and 5 (5.1.1)",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
+    errata=("E36",),
     judges=("BMU",),
     tolerances=(_SHARE, _VOLTAGE, _SECONDS),
     watch=CoolingToldVoltage,

@@ -59,7 +59,7 @@ RULE = Rule(
         "高压上下电由 BMS 请求;BMS 断开继电器时认为机组已无负载。",
     ),
     clause="Table 19 row 2 (5.5), Table 20 row 2 (5.6)",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
     judges=("TMS",),
     tolerances=(_SECONDS,),
     watch=CoolingVoltageAsked,

@@ -55,7 +55,8 @@ class Announced(Watcher):
     It judges where each frame came twice, so that none is still to come. The highest reading with
     a value of each CSC counts: codes without a value behind it fill up the last frame. Only where
     the pack announces that something is not measured may they be readings. What came before a
-    silence is judged apart, as it may be of another pack.
+    silence is judged apart, as it may be of another pack. Where no two CSCs have a frame number in
+    common the numbers run on through the pack, as E50 reads them otherwise.
 
     Parameters
     ----------
@@ -178,6 +179,12 @@ class Announced(Watcher):
         room = np.where(seen.any(axis=2), numbered[:, 0] + width, 0).max(axis=1)
         none = [0, *self._message.FIELDS[csc].states]
         highest[none] = room[none] = 0
+        shared = np.delete(seen.any(axis=2), none, axis=0).sum(axis=0) > 1
+        if not shared.any():
+            return Carried(
+                (int(np.count_nonzero(highest)), int(np.count_nonzero(room))),
+                (int(highest.max()), int(room.max())),
+            )
         return Carried(
             (int(np.count_nonzero(highest)), int(np.count_nonzero(room))),
             (int(highest.sum()), int(room.sum())),

@@ -33,7 +33,8 @@ RULE = Rule(
         "接收方按上报的总数收集数据,并据此判断是否缺失。",
     ),
     clause="Table 13 rows 6 and 7 (5.1.12), Table 9 (5.1.8)",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
+    errata=("E50",),
     judges=("BMU",),
     tolerances=(_SECONDS, ANOTHER_PACK),
     watch=partial(

@@ -12,7 +12,7 @@ from swapcan.rules.pack.runs import ROUNDING, Runs
 from swapcan.rules.pack.silences import Silences
 from swapcan.rules.shared import ANOTHER_PACK
 from typedcan.judge.chunk import Chunk, LogEnd
-from typedcan.judge.findings import Findings, Said, Subject
+from typedcan.judge.findings import Findings, LeftOpen, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -93,6 +93,7 @@ RULE = Rule(
     ),
     clause="Table 4 (5.1.4)",
     severity=Severity.MUST,
+    left_open=(LeftOpen("B2V_SingleChgEnergy", ("E62",)),),
     judges=("BMU",),
     tolerances=(_FALL, _ANEW, ANOTHER_PACK),
     watch=EnergyCountersRise,

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from swapcan.messages import B2V_ST0, B2V_ST1, BmsState, RelayState
+from swapcan.rules.voltage.charge_path import ChargePath
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.lasting import LastingWatcher
@@ -54,6 +55,7 @@ class HvClosedRelays(LastingWatcher):
         }
         state = Subject("BMU", "B2V_ST1", "B2V_ST1_BMS")
         self._both = self.lasting(state, delay, B2V_ST0)
+        self._path = ChargePath()
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the relays under the states HV open and HV closed."""
@@ -61,6 +63,7 @@ class HvClosedRelays(LastingWatcher):
         state = LastKnown(chunk.sound(B2V_ST1), relays)
         on = state.is_code("bms", BmsState.HV_CLOSED)
         off = state.is_code("bms", BmsState.HV_OPEN)
+        for_charging = self._path.feed(chunk)
         both = np.ones(len(relays), np.bool_)
         shown = both.copy()
         for field, title in _RELAYS.items():
@@ -68,7 +71,7 @@ class HvClosedRelays(LastingWatcher):
             is_open, is_closed = code == RelayState.OPEN, code == RelayState.CLOSED
             self._open[field].feed(
                 relays,
-                on & (is_open | is_closed),
+                on & (is_open | is_closed) & ~for_charging[field],
                 is_open,
                 partial(_describe_open, title),
             )
@@ -89,8 +92,10 @@ RULE = Rule(
     id="hv-closed-relays",
     title=Text("State and main relays agree", "高压状态与主继电器状态一致"),
     purpose=Text(
-        "The VCU drives by the state and watches the relays: they must tell the same.",
-        "VCU 依据高压状态行驶并监视继电器,两者必须一致。",
+        "The VCU drives by the state and watches the relays: they must tell the same. A relay that "
+        "opened for the charge contactors is not judged until it closes again.",
+        "VCU 依据高压状态行驶并监视继电器,两者必须一致。"
+        "因使用充电接触器而断开的继电器,在其再次闭合之前不作判定。",
     ),
     clause="Table 1 row 9 (5.1.1), Table 2 rows 1 and 2 (5.1.2)",
     severity=Severity.MUST,

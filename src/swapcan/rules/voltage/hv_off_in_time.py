@@ -79,7 +79,7 @@ RULE = Rule(
         "电池管理系统接收到下电命令后进入下电状态,维修人员的安全依赖于此。",
     ),
     clause="5.2.1.4",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
     judges=("BMU",),
     tolerances=(_SECONDS,),
     watch=HvOffInTime,

@@ -70,7 +70,7 @@ RULE = Rule(
         "电池包处于危险时 BMU 请求下高压;若无响应,只能带载断开继电器。",
     ),
     clause="Table 3 row 2 (5.1.3), 5.1.11",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
     judges=("VCU",),
     tolerances=(_SECONDS, ANOTHER_PACK),
     watch=HvOffRequested,

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, HvCommand
+from swapcan.messages import B2V_ST1, V2B_CMD, BmsState, ChargeLine, HvCommand
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.last_known import LastKnown, fresh_for
@@ -48,11 +48,13 @@ class HvOnlyOnCommand(Watcher):
         heard = self._heard.feed(commands, np.ones(len(commands), np.bool_))
         is_on = commands.raw("hv_on_off") == HvCommand.HV_ON
         on = last(commands, is_on, commands.time, self._on)
+        # A gun asks for high voltage as well: what a pack does then is not printed.
         precharge = states.raw("bms") == BmsState.PRECHARGE
+        plugged = states.raw("chg_line") == ChargeLine.CONNECTED
         begins = np.flatnonzero(precharge[1:] & ~precharge[:-1]) + 1
         if len(begins) and len(commands):
             beside = LastKnown(commands, states)
-            for row in begins[beside.known[begins]].tolist():
+            for row in begins[(beside.known & ~plugged)[begins]].tolist():
                 at = int(beside.rows[row])
                 # It may have begun at any time since the state before.
                 earliest = float(states.time[row - 1]) - self._before

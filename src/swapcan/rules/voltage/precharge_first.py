@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swapcan.messages import B2V_ST0, B2V_ST1, BmsState, RelayState
+from swapcan.rules.voltage.charge_path import ChargePath
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.last_known import LastKnown, fresh_for
@@ -31,6 +32,7 @@ class PrechargeFirst(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
+        self._path = ChargePath()
         self._open = Since(fresh_for(B2V_ST0, findings))
         # Orders of the last frames, as floats; -1: none.
         self._closed = self._precharged = self._told = -1.0
@@ -39,6 +41,7 @@ class PrechargeFirst(Watcher):
         """Judge the closings of the main positive relay."""
         relays, states = chunk.sound(B2V_ST0), chunk.sound(B2V_ST1)
         positive, precharge = relays.raw("st_main_pos"), relays.raw("st_prechg")
+        for_charging = self._path.feed(chunk)["st_main_pos"]
         is_open = positive == RelayState.OPEN
         opened = self._open.feed(relays, is_open)
         closed = self._last(relays, positive == RelayState.CLOSED, self._closed)
@@ -51,7 +54,12 @@ class PrechargeFirst(Watcher):
             for row in closes.tolist():
                 seconds = float(relays.time[row - 1] - opened[row - 1])
                 step = float(relays.time[row] - relays.time[row - 1])
-                if step > relays.lasts or seconds < _WATCHED or not shown[row]:
+                if (
+                    step > relays.lasts
+                    or seconds < _WATCHED
+                    or not shown[row]
+                    or for_charging[row - 1]
+                ):
                     continue
                 proof = float(precharged[row])
                 if len(told) and states.order[state.rows[row]] < relays.order[row]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from swapcan.messages import V2B_CMD, HvCommand, RelayState
-from typedcan.judge.chunk import Chunk
-from typedcan.judge.findings import Findings, Occurrence, Subject
+from typedcan.judge.chunk import Chunk, LogEnd
+from typedcan.judge.findings import KEPT, Findings, Occurrence, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.report.language import Text
 
@@ -20,58 +20,57 @@ _UNREPORTED = Text(
 
 
 class RelaysBeforeCommand(Watcher):
-    """Looks at each change of the command to on."""
+    """Looks at each change of the command to on.
+
+    A relay of which no frame of the log reports a state is one that the vehicle lacks.
+    """
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
-        self._reported = False
+        self._first: dict[str, int] = {}  # by relay, the first frame that reports it
+        self._commands: list[tuple[float, int, int]] = []  # time and order, order of the one before
 
     def feed(self, chunk: Chunk) -> None:
-        """Judge the commands that begin here."""
+        """Note the commands that begin here, and the reports."""
         series = chunk.sound(V2B_CMD)
         if not series.fresh:
             return
         on = series.raw("hv_on_off") == HvCommand.HV_ON
-        commands = np.flatnonzero(on[1:] & ~on[:-1]) + 1
-        first = 0 if self._reported else self._first_report(chunk)
-        self._reported = self._reported or first < len(series)
-        for row in commands.tolist():
+        for row in (np.flatnonzero(on[1:] & ~on[:-1]) + 1).tolist():
+            if len(self._commands) < KEPT:
+                order, before = int(series.order[row]), int(series.order[row - 1])
+                self._commands.append((float(series.time[row]), order, before))
+        for name in _RELAYS:
+            told = series.raw(name) != RelayState.RESERVED
+            if name not in self._first and told.any():
+                self._first[name] = int(series.order[told.argmax()])
+
+    def finish(self, end: LogEnd) -> None:  # noqa: ARG002
+        """Judge the commands: it is known now which relays there are."""
+        for time, order, before in self._commands:
             self.findings.examine(V2B_CMD.SENDER)
-            if row <= first and first:
-                self._found(chunk, row)
-
-    @staticmethod
-    def _first_report(chunk: Chunk) -> int:
-        """The first row that reports all relays, one past the last where there is none."""
-        series = chunk.sound(V2B_CMD)
-        told = np.logical_and.reduce([series.raw(name) != RelayState.RESERVED for name in _RELAYS])
-        return int(told.argmax()) if told.any() else len(series)
-
-    def _found(self, chunk: Chunk, row: int) -> None:
-        series = chunk.sound(V2B_CMD)
-        fields = [
-            V2B_CMD.FIELDS[name]
-            for name in _RELAYS
-            if series.raw(name)[row - 1] == RelayState.RESERVED
-        ]
-        self.findings.add(
-            Occurrence(
-                subject=Subject(V2B_CMD.SENDER, V2B_CMD.NAME, "V2B_CMD_HV_OnOff"),
-                start=float(series.time[row]),
-                end=float(series.time[row]),
-                order=int(series.order[row]),
-                text=_UNREPORTED,
-                values={"names": ", ".join(field.dbc_name for field in fields)},
-            )
-        )
+            late = [name for name, first in self._first.items() if first > before]
+            if late:
+                names = [V2B_CMD.FIELDS[name].dbc_name for name in _RELAYS if name in late]
+                self.findings.add(
+                    Occurrence(
+                        subject=Subject(V2B_CMD.SENDER, V2B_CMD.NAME, "V2B_CMD_HV_OnOff"),
+                        start=time,
+                        end=time,
+                        order=order,
+                        text=_UNREPORTED,
+                        values={"names": ", ".join(names)},
+                    )
+                )
 
 
 RULE = Rule(
     id="relays-before-command",
     title=Text("Relays are reported before high voltage is commanded", "上电指令前汇报继电器状态"),
     purpose=Text(
-        "The BMU must know how the vehicle's relays stand before it switches high voltage on.",
-        "电池管理系统接通高压前必须知道整车继电器状态。",
+        "The BMU must know how the vehicle's relays stand before it switches high voltage on. A "
+        "relay that is never reported is one that the vehicle lacks.",
+        "电池管理系统接通高压前必须知道整车继电器状态;从未汇报的继电器视为整车未配置。",
     ),
     clause="5.2.1.2, Table 14 rows 7 to 10",
     severity=Severity.MUST,

@@ -89,7 +89,7 @@ RULE = Rule(
         "高压只能由 VCU 上电指令经预充后接通。",
     ),
     clause="5.2.1.1, Table 1 row 9",
-    severity=Severity.MUST,
+    severity=Severity.SHOULD,
     judges=(B2V_ST1.SENDER,),
     tolerances=(_QUIET,),
     watch=StartState,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,32 +61,41 @@ class PeriodMeter:
 
     def __init__(self, protocol: Protocol) -> None:
         self._messages = protocol.messages
-        self._spread = dict.fromkeys(protocol.messages, Spread())
-        self._spans: dict[type[Message], _Spans] = {}
+        self._whole: dict[type[Message], _Measured] = {}
+        self._each: dict[type[Message], _Measured] = {}
 
     def feed(self, timing: Timing) -> None:
         """Note the steps of the next frames."""
-        for message, steps in timing.steps.items():
-            self._spread[message] += steps.spread
-            if message not in self._spans:
-                self._spans[message] = _Spans()
-            if len(steps):
-                self._spans[message].feed(steps)
+        for measured, found in ((self._whole, timing.steps), (self._each, timing.each)):
+            for message, steps in found.items():
+                if message not in measured:
+                    measured[message] = _Measured()
+                measured[message].feed(steps)
 
-    def finish(self, seen: Mapping[type[Message], Presence]) -> tuple[Periods, ...]:
+    def finish(
+        self, seen: Mapping[type[Message], Presence], by_frame: Collection[type[Message]]
+    ) -> tuple[Periods, ...]:
         """One per message that has a period and came, in the protocol's order.
 
-        ``seen`` is what came of each message.
+        ``seen`` is what came of each message, ``by_frame`` those of several frames a cycle of
+        which one frame came each period.
         """
         return tuple(
-            self._periods(message, message.PERIOD, seen[message].frames)
+            self._periods(message, message.PERIOD, seen[message].frames, by_frame)
             for message in self._messages
-            if message.PERIOD and message in self._spans
+            if message.PERIOD and message in self._whole
         )
 
-    def _periods(self, message: type[Message], period: float, frames: int) -> Periods:
-        spread = self._spread[message]
-        time, low, high = self._spans[message].columns()
+    def _periods(
+        self,
+        message: type[Message],
+        period: float,
+        frames: int,
+        by_frame: Collection[type[Message]],
+    ) -> Periods:
+        measured = (self._each if message in by_frame else self._whole)[message]
+        spread = measured.spread
+        time, low, high = measured.spans.columns()
         return Periods(
             message=message.NAME,
             period=period,
@@ -99,6 +108,20 @@ class PeriodMeter:
             low=low,
             high=high,
         )
+
+
+class _Measured:
+    """The steps of one message so far."""
+
+    def __init__(self) -> None:
+        self.spread = Spread()
+        self.spans = _Spans()
+
+    def feed(self, steps: Steps) -> None:
+        """Note steps."""
+        self.spread += steps.spread
+        if len(steps):
+            self.spans.feed(steps)
 
 
 class _Spans:

@@ -6,6 +6,7 @@ take several frames a cycle: there it is the step to the next frame of the same 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,6 +23,9 @@ from typedcan.judge.series import Series
 from typedcan.judge.tolerance import ASKED_ANEW, Limits
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef, Protocol
+
+_SHORTEST = 1e-6
+"""Seconds: steps are not measured any finer."""
 
 _KEY_BITS = 8
 """Bits of a group, and of a frame number, of which `key_of` makes one number."""
@@ -138,11 +142,21 @@ class Timing:
         Silences of nodes that ended in the chunk.
     starts
         Nodes that began to send in it.
+    each
+        Of each message of several frames a cycle, the steps from one frame to the next.
     """
 
     steps: Mapping[type[Message], Steps]
     silences: tuple[Silence, ...]
     starts: tuple[Start, ...]
+    each: Mapping[type[Message], Steps]
+
+    def of(self, message: type[Message], *, by_frame: bool = False) -> Steps | None:
+        """The steps of a message; None where it did not come, or has no period.
+
+        With ``by_frame`` of one of several frames a cycle those from one frame to the next.
+        """
+        return (self.each if by_frame else self.steps).get(message)
 
 
 class StepMeter:
@@ -156,20 +170,41 @@ class StepMeter:
         self._requested = frozenset(requests_of(protocol))
         self._keyed = keyed(protocol)
         self._tables: dict[type[Message], _Table] = {}
+        self._spreads = {message: (Spread(), Spread()) for message in self._keyed}
 
     def feed(self, chunk: DecodedChunk) -> Timing:
         """Measure the next frames."""
         known = [seen.silences[-1] for seen in self.presences.nodes.values() if seen.silences]
         silences, starts = self.presences.feed(chunk)
         steps: dict[type[Message], Steps] = {}
+        single: dict[type[Message], Steps] = {}
         for message in self._protocol.messages:
             series = chunk.frames(message)
             if message.PERIOD and series.fresh:
                 own = [each for each in (*known, *silences) if each.node == message.SENDER]
                 steps[message] = self._judged(self._steps(series, chunk), message.PERIOD, own)
+                if message in self._keyed:
+                    single[message] = self._judged(_by_frame(series), message.PERIOD, own)
+                    whole, each = self._spreads[message]
+                    self._spreads[message] = (
+                        whole + steps[message].spread,
+                        each + single[message].spread,
+                    )
             elif message in self._requested and message.PERIOD:
                 self._asked.changes(chunk, message)
-        return Timing(steps, tuple(silences), tuple(starts))
+        return Timing(steps, tuple(silences), tuple(starts), single)
+
+    def by_frame(self) -> frozenset[type[Message]]:
+        """The messages of several frames a cycle of which one frame came each period.
+
+        Whether a printed period is that of a frame or of the whole cycle shows in what is nearer.
+        """
+        return frozenset(
+            message
+            for message, (whole, each) in self._spreads.items()
+            if each.count
+            and _off(each, message) < (_off(whole, message) if whole.count else np.inf)
+        )
 
     def stopped(self) -> Iterator[Stopped]:
         """What came last of each message, and of each place in the cycle of those of several."""
@@ -186,7 +221,7 @@ class StepMeter:
                 self._tables[message] = _Table(message, self._keyed[message])
             return self._tables[message].feed(series)
         order = series.order
-        steps = Steps(message, series.time[1:], np.diff(series.time), None, lambda at: order[at])
+        steps = _by_frame(series)
         if message in self._requested:
             changes = self._asked.changes(chunk, message)
             steps = steps.only(np.diff(np.searchsorted(changes, order)) == 0)
@@ -205,6 +240,16 @@ class StepMeter:
             last = np.searchsorted(ends, steps.time, "right")
             steps = steps.only(steps.time - steps.length >= middles[last])
         return steps
+
+
+def _by_frame(series: Series) -> Steps:
+    order = series.order
+    return Steps(series.message, series.time[1:], np.diff(series.time), None, lambda at: order[at])
+
+
+def _off(spread: Spread, message: type[Message]) -> float:
+    """How far a mean step is from the period, whether it is longer or shorter."""
+    return abs(math.log(max(spread.mean, _SHORTEST) / (message.PERIOD or 1.0)))
 
 
 class _Table:

@@ -8,8 +8,9 @@ them an object:
 - ``begin`` (time stamp of the first frame), ``begin_utc`` (null where it is no date), ``seconds``;
 - ``frames`` (by message; the empty name counts those of none), ``nodes``, ``seen``, ``damage``,
   ``tolerances`` that several rules go by, as those of a rule;
-- ``rules``: ``id``, ``title``, ``purpose``, ``clause``, ``severity`` ("must", "should", "info"),
-  ``judges``, ``tolerances`` (``name``, ``value`` in force, ``default``, ``unit``, ``text``),
+- ``rules``: ``id``, ``title``, ``purpose``, ``clause``, ``severity`` ("must", "should", "info";
+  that of what was found, where it is less), ``errata`` that it rests on, ``judges``,
+  ``tolerances`` (``name``, ``value`` in force, ``default``, ``unit``, ``text``),
   ``status`` ("passed", "failed", "noted", "not_judged"), ``examined``, ``count``, ``frames``,
   ``worst`` (an occurrence or null), ``occurrences``: the first of them, by time;
 - ``periods``: ``message``, ``period``, ``frames``, ``mean``, ``deviation``, ``shortest``,
@@ -20,7 +21,8 @@ them an object:
 
 An occurrence has ``node``, ``message``, ``signal``, ``detail``, ``start`` and ``end`` in seconds
 since the log's begin, ``order`` (number of its first frame, from 0), ``frames``, ``measure``,
-``text`` and the ``values`` in it. What is no number is null.
+``text`` and the ``values`` in it; ``is_open``, whether the standard leaves open what is right, so
+that no demand is broken, and the ``errata`` that it then rests on. What is no number is null.
 """
 
 from __future__ import annotations
@@ -83,7 +85,8 @@ def _rule(judgement: Judgement, result: RuleResult, language: Language) -> dict[
         "title": rule.title.within(language),
         "purpose": rule.purpose.within(language),
         "clause": rule.clause,
-        "severity": rule.severity.name.lower(),
+        "severity": result.severity.name.lower(),
+        "errata": list(rule.errata),
         "judges": list(rule.judges),
         "tolerances": _tolerances(judgement, rule.tolerances, language),
         "status": result.status.name.lower(),
@@ -124,6 +127,8 @@ def _occurrence(found: Occurrence, language: Language) -> dict[str, Any]:
         "measure": _plain(found.measure),
         "text": found.says(language),
         "values": values,
+        "is_open": found.is_open,
+        "errata": list(found.errata),
     }
 
 

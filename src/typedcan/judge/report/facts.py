@@ -28,7 +28,7 @@ def overall(judgements: Sequence[Judgement]) -> Verdict:
 def failed(judgement: Judgement, severity: Severity) -> tuple[RuleResult, ...]:
     """The results of that severity that have findings, in their order."""
     return tuple(
-        result for result in judgement.results if result.count and result.rule.severity is severity
+        result for result in judgement.results if result.count and result.severity is severity
     )
 
 
@@ -56,7 +56,9 @@ def in_force(judgement: Judgement, tolerance: Tolerance) -> float:
 def why(judgement: Judgement, language: Language) -> str:
     """One sentence beside the verdict."""
     broken = failed(judgement, Severity.MUST)
-    blamed = {found.subject.node for result in broken for found in result.occurrences}
+    blamed = {
+        found.subject.node for result in broken for found in result.occurrences if not found.is_open
+    }
     nodes = [node for node in judgement.nodes if node in blamed]
     comma = words.COMMA.within(language)
     text = words.REASONS[judgement.verdict].within(language)
@@ -64,13 +66,31 @@ def why(judgement: Judgement, language: Language) -> str:
 
 
 def says(found: Occurrence, language: Language) -> str:
-    """What is wrong, on one line."""
-    return printable(found.says(language))
+    """What is wrong, on one line, and what that rests on where the standard leaves it open."""
+    said = found.says(language)
+    if found.is_open:
+        open_ = words.LEFT_OPEN.within(language)
+        said = words.SEMICOLON.within(language).join(
+            filter(None, (said, open_, _errata(found.errata, language)))
+        )
+    return printable(said)
 
 
-def cited(text: str, rule: Rule) -> str:
-    """A text with the place that asks for what a rule does, where there is one."""
-    return f"{text} ({rule.clause})" if rule.clause else text
+def cited(text: str, rule: Rule, language: Language) -> str:
+    """A text with the place that asks for what a rule does, and how it is read, if anything."""
+    place = clause(rule, language)
+    return f"{text} ({place})" if place else text
+
+
+def clause(rule: Rule, language: Language) -> str:
+    """The place that asks for what a rule does, and the errata that the rule rests on."""
+    parts = (rule.clause, _errata(rule.errata, language))
+    return words.SEMICOLON.within(language).join(filter(None, parts))
+
+
+def _errata(ids: Sequence[str], language: Language) -> str:
+    listed = words.COMMA.within(language).join(ids)
+    return words.ERRATA.within(language).format(errata=listed) if ids else ""
 
 
 def found(result: RuleResult, language: Language) -> str:

@@ -89,10 +89,10 @@ def _judged(judgement: Judgement, language: Language) -> ET.Element:
 
 def _case(result: RuleResult, language: Language, failing: Severity) -> ET.Element:
     # Class and name say which test it is from one run to the next: nothing else is in them.
-    severity = result.rule.severity
-    classname = f"swapcan.conform.{severity.name.lower()}"
+    severity = result.severity
+    classname = f"swapcan.conform.{result.rule.severity.name.lower()}"
     case = ET.Element("testcase", {"classname": classname, "name": result.rule.id, "time": "0"})
-    message = facts.cited(result.rule.title.within(language), result.rule)
+    message = facts.cited(result.rule.title.within(language), result.rule, language)
     if result.status is Status.NOT_JUDGED:
         text = words.NOTHING_TO_JUDGE.within(language)
         ET.SubElement(case, "skipped", {"message": printable(text)})

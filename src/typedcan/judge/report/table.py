@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from typedcan.judge.findings import Occurrence
 from typedcan.judge.judgement import Judgement, RuleResult
 from typedcan.judge.report import facts, figures
+from typedcan.judge.rule import Severity
 from typedcan.report.language import Language
 from typedcan.shell.printing import printable
 
@@ -51,10 +52,12 @@ def to_csv(judgements: Sequence[Judgement], language: Language) -> str:
 
 def _rows(judgement: Judgement, result: RuleResult, language: Language) -> Iterator[list[str]]:
     rule = result.rule
-    head = [judgement.log, rule.id, rule.severity.name.lower(), rule.clause]
+    clause = facts.clause(rule, language)
     for found in result.occurrences:
+        severity = min(rule.severity, Severity.SHOULD) if found.is_open else rule.severity
+        head = (judgement.log, rule.id, severity.name.lower(), clause)
         yield [
-            *map(_cell, [*head, *found.subject]),
+            *map(_cell, (*head, *found.subject)),
             *_figures(judgement.begin, found),
             _cell(facts.says(found, language)),
         ]

@@ -103,11 +103,11 @@ class _Writer:
 
     def _result(self, result: RuleResult) -> Iterator[str]:
         rule = result.rule
-        severity = self._in(words.SEVERITIES[rule.severity])
-        painted = self._paint(severity, _BOLD, _SEVERITY_COLOURS[rule.severity])
+        severity = self._in(words.SEVERITIES[result.severity])
+        painted = self._paint(severity, _BOLD, _SEVERITY_COLOURS[result.severity])
         title = printable(self._in(rule.title))
         yield f"  {painted}  {self._paint(rule.id, _BOLD)}{self._colon}{title}"
-        found = printable(facts.cited(facts.found(result, self._language), rule))
+        found = printable(facts.cited(facts.found(result, self._language), rule, self._language))
         yield from self._wrapped(found, "    ", "      ")
         if self._verbose:
             yield from self._wrapped(printable(self._in(rule.purpose)), "    ", "    ")

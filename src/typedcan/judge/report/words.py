@@ -94,6 +94,9 @@ EXAMINED = Text("Examined", "检查数")
 COUNT = Text("Found", "发现数")
 STATUS = Text("Status", "结果")
 
+ERRATA = Text("erratum {errata}", "勘误 {errata}")
+LEFT_OPEN = Text("no demand, as the standard leaves it open", "标准未明确，不作强制要求")
+
 FIRST = Text("First", "首次")
 WORST = Text("Worst", "最严重")
 START = Text("Start", "开始")

@@ -22,7 +22,7 @@ def rules_for(protocol: Protocol, scope: Scope = _ALL) -> tuple[Rule, ...]:
     """
     every = (
         *frames.rules(protocol),
-        *protection.rules(protocol),
+        *protection.rules(protocol, scope),
         *timing.rules(protocol, scope),
         *content.rules(protocol, scope),
         *requests.rules(protocol),

@@ -107,19 +107,19 @@ def _rule(
 def _summary(judgement: Judgement, result: RuleResult, language: Language) -> Markup:
     rule = result.rule
     status = words.STATUSES[result.status].within(language)
-    severity = words.SEVERITIES[rule.severity].within(language)
+    severity = words.SEVERITIES[result.severity].within(language)
     nodes = words.COMMA.within(language).join(facts.judged_of(judgement, rule))
     name = element(
         "span",
         element("b", rule.title.within(language)),
-        element("small", element("code", rule.id), " ", rule.clause),
+        element("small", element("code", rule.id), " ", facts.clause(rule, language)),
         class_="name",
     )
     return element(
         "summary",
         element("span", _SIGNS[result.status], class_="sign", aria_hidden="true"),
         name,
-        element("span", severity, class_=f"severity {rule.severity.name.lower()}"),
+        element("span", severity, class_=f"severity {result.severity.name.lower()}"),
         element("span", nodes, class_="nodes"),
         _figure(words.EXAMINED, result.examined, language),
         _figure(words.COUNT, result.count, language),

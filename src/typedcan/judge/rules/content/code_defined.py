@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from typedcan.judge.chunk import Chunk
-from typedcan.judge.findings import Findings, Said
+from typedcan.judge.findings import Findings, LeftOpen, Said
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.rules.content.codes import Codes, judge_codes, senders, whole_fields, without
-from typedcan.judge.scope import Scope
+from typedcan.judge.scope import OpenCodes, Scope
 from typedcan.report.language import Text
 from typedcan.wire.fields import LabelledField
 from typedcan.wire.protocol import FieldRef, Protocol, Transfer
@@ -18,7 +18,11 @@ _UNDEFINED = Text(
     "code {code} has no meaning; defined are {defined}",
     "编码 {code} 未定义,已定义的编码为 {defined}",
 )
+_NOT_THERE = Text("has no meaning; defined are {defined}", "未定义,已定义的编码为 {defined}")
 _NUMBERED_FROM_ONE = Text("number {code}; numbers begin at 1", "编号为 {code},编号应从 1 开始")
+
+
+_NONE = OpenCodes(())
 
 
 class CodeDefined(Watcher):
@@ -28,17 +32,23 @@ class CodeDefined(Watcher):
         self, findings: Findings, tables: Sequence[Codes], numbers: Sequence[Codes]
     ) -> None:
         super().__init__(findings)
-        self._tables = tables
+        self._tables = [codes for codes in tables if not codes.detail]
+        self._left_open = [codes for codes in tables if codes.detail]
         self._numbers = numbers
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the next frames."""
         judge_codes(self.findings, chunk, self._tables, _describe)
+        judge_codes(self.findings, chunk, self._left_open, _describe_open)
         judge_codes(self.findings, chunk, self._numbers, _describe_number)
 
 
 def _describe(codes: Codes, code: int) -> Said:
     return _UNDEFINED, {"code": code, "defined": ", ".join(map(str, codes.right))}
+
+
+def _describe_open(codes: Codes, code: int) -> Said:  # noqa: ARG001
+    return _NOT_THERE, {"defined": ", ".join(map(str, codes.right))}
 
 
 def _describe_number(codes: Codes, code: int) -> Said:  # noqa: ARG001
@@ -49,9 +59,12 @@ def _labelled(protocol: Protocol, scope: Scope) -> Iterator[Codes]:
     for message, field in whole_fields(protocol):
         if isinstance(field, LabelledField) and field.dbc_name not in scope.examples:
             right = tuple(sorted(field.labels))
-            undefined = without([field.signal.raw_limits], right)
+            left_open = scope.open_codes.get(field.dbc_name, _NONE).codes
+            undefined = without([field.signal.raw_limits], {*right, *left_open})
             if undefined:
                 yield Codes(message, field, undefined, right)
+            for code in left_open:
+                yield Codes(message, field, ((code, code),), right, f"code {code}")
 
 
 def _frame_numbers(transfers: Sequence[Transfer]) -> Iterator[Codes]:
@@ -91,5 +104,10 @@ def rule(protocol: Protocol, scope: Scope) -> Rule:
         ),
         severity=Severity.MUST,
         judges=senders((*tables, *numbers)),
+        left_open=tuple(
+            LeftOpen(f"{name} code {code}", left_open.errata)
+            for name, left_open in scope.open_codes.items()
+            for code in left_open.codes
+        ),
         watch=partial(CodeDefined, tables=tables, numbers=numbers),
     )

@@ -31,12 +31,15 @@ class Codes:
         Those in a row: comparing is faster than looking up.
     right
         Those that are not wrong, where they are few.
+    detail
+        What tells them from other wrong codes of the field.
     """
 
     message: type[Message]
     field: Field
     spans: tuple[Span, ...]
     right: tuple[int, ...] = ()
+    detail: str = ""
 
     def are_wrong(self, raw: NDArray[Any]) -> NDArray[np.bool_]:
         """Which raw values are."""
@@ -88,7 +91,8 @@ def judge_codes(
             continue
         wrong = np.zeros(len(series), np.bool_)
         wrong[series.first :] = codes.are_wrong(series.new_raw(codes.field.name))
-        subject = Subject(codes.message.SENDER, codes.message.NAME, codes.field.dbc_name)
+        message, name = codes.message, codes.field.dbc_name
+        subject = Subject(message.SENDER, message.NAME, name, codes.detail)
         described = partial(_describe, describe, codes, series)
         bad = None
         if measure is not None and wrong.any():

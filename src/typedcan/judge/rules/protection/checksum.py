@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -10,8 +10,11 @@ import numpy as np
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.rules.one_of import Making, OneOf, Together, readings_of
 from typedcan.judge.series import Series
-from typedcan.model.seal import Seal
+from typedcan.model import protocol as model
+from typedcan.model.checksums.registry import AlgorithmError
+from typedcan.model.seal import Seal, seal_of
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
@@ -25,9 +28,15 @@ _WRONG = Text(
 class Checksum(Watcher):
     """Compares each checksum with the one that the bytes make."""
 
-    def __init__(self, findings: Findings, messages: Sequence[type[Message]]) -> None:
+    def __init__(
+        self,
+        findings: Findings,
+        messages: Sequence[type[Message]],
+        read: Mapping[str, Seal] | None = None,
+    ) -> None:
         super().__init__(findings)
         self._messages = messages
+        self._read = read or {}
 
     def feed(self, chunk: Chunk) -> None:
         """Judge all frames of messages that have a checksum, where something computes it."""
@@ -39,6 +48,11 @@ class Checksum(Watcher):
             wrong = np.zeros(len(series), np.bool_)
             if series.fresh != sound.fresh:
                 wrong = ~np.isin(series.order, sound.order)
+            if other := self._read.get(message.NAME):
+                seal = other
+                length = message.LENGTH
+                right = [seal.verify(bytes(row)[:length]) for row in series.payload[wrong]]
+                wrong[wrong] = ~np.array(right, np.bool_)
             subject = Subject(message.SENDER, message.NAME)
             self.findings.rows(subject, series, wrong, partial(_describe, seal, series))
 
@@ -46,6 +60,38 @@ class Checksum(Watcher):
 def _describe(seal: Seal, series: Series, row: int) -> Said:
     data = bytes(series.payload[row])[: series.message.LENGTH]
     return _WRONG, {"given": seal.read(data), "right": seal.expected(data)}
+
+
+def _watch(
+    findings: Findings,
+    messages: Sequence[type[Message]],
+    read: Mapping[str, Sequence[Seal]],
+) -> Watcher:
+    """By each of the readings of a checksum, where there are several."""
+    several: list[Watcher] = []
+    for message in messages:
+        if message.NAME in read:
+            make: list[Making] = [partial(Checksum, messages=[message])]
+            make += [
+                partial(Checksum, messages=[message], read={message.NAME: seal})
+                for seal in read[message.NAME]
+            ]
+            several.append(OneOf(findings, make))
+    plain = [message for message in messages if message.NAME not in read]
+    return Together(findings, [Checksum(findings, plain), *several])
+
+
+def _read_otherwise(protocol: model.Protocol) -> dict[str, list[Seal]]:
+    """By names of messages, what makes their checksums in the other readings of the spec."""
+    found: dict[str, list[Seal]] = {}
+    for message in readings_of(protocol, "checksum"):
+        try:
+            seal = seal_of(message, {})
+        except AlgorithmError:
+            continue
+        if seal:
+            found.setdefault(message.name, []).append(seal)
+    return found
 
 
 def rule(protocol: Protocol) -> Rule:
@@ -60,5 +106,5 @@ def rule(protocol: Protocol) -> Rule:
         ),
         severity=Severity.MUST,
         judges=tuple(dict.fromkeys(message.SENDER for message in protected)),
-        watch=partial(Checksum, messages=protected),
+        watch=partial(_watch, messages=protected, read=_read_otherwise(protocol.model)),
     )

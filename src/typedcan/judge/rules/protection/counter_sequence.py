@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 from typedcan.judge.chunk import Chunk
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.rules.one_of import OneOf, Together, readings_of
+from typedcan.judge.scope import Scope
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import SILENCE
 from typedcan.logs.checksums import counter_places
+from typedcan.model import protocol as model
 from typedcan.model.protection import Counter
 from typedcan.report.language import Text
 from typedcan.wire.message import Message
@@ -50,13 +53,22 @@ class CounterSequence(Watcher):
 
     Frames with a wrong checksum in between count as steps. After a pause, and after a value that
     the counter must not have, it may begin anywhere.
+
+    Parameters
+    ----------
+    open_ends
+        Counters of which it is not said where they begin anew.
     """
 
     def __init__(
-        self, findings: Findings, counters: Sequence[tuple[type[Message], Counter]]
+        self,
+        findings: Findings,
+        counters: Sequence[tuple[type[Message], Counter]],
+        open_ends: frozenset[str] = frozenset(),
     ) -> None:
         super().__init__(findings)
         self._counters = counters
+        self._open_ends = open_ends
         self._places = {message: _Place() for message, _ in counters}
 
     def feed(self, chunk: Chunk) -> None:
@@ -72,6 +84,8 @@ class CounterSequence(Watcher):
             sane = raw >= 0
             wrong = sane & np.roll(sane, 1) & (pause == np.roll(pause, 1)) & (raw != due)
             wrong[:1] = False  # there is nothing before
+            if counter.signal in self._open_ends:
+                wrong &= ~_begins_anew(counter, raw)
             subject = Subject(message.SENDER, message.NAME, counter.signal)
             described = partial(_describe, counter, raw, steps)
             self.findings.rows(subject, sound, wrong, described)
@@ -109,10 +123,44 @@ def _describe(counter: Counter, raw: NDArray[np.int64], steps: NDArray[np.int64]
     return _SKIPPED, {"before": others[0], "value": value, "due": others[1]}
 
 
-def rule(protocol: Protocol) -> Rule:
+def _begins_anew(counter: Counter, raw: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Where it goes from one of its last two values to one of its first two."""
+    anew: NDArray[np.bool_] = (np.roll(raw, 1) >= counter.modulus - 2) & (raw >= 0) & (raw <= 1)
+    return anew
+
+
+def _watch(
+    findings: Findings,
+    counters: Sequence[tuple[type[Message], tuple[Counter, ...]]],
+    open_ends: frozenset[str],
+) -> Watcher:
+    """By each of the readings of a counter, where there are several."""
+    plain = [(message, readings[0]) for message, readings in counters if len(readings) == 1]
+    several = [
+        OneOf(
+            findings,
+            [
+                partial(CounterSequence, counters=[(message, counter)], open_ends=open_ends)
+                for counter in readings
+            ],
+        )
+        for message, readings in counters
+        if len(readings) > 1
+    ]
+    return Together(findings, [CounterSequence(findings, plain, open_ends), *several])
+
+
+def _read_otherwise(others: Sequence[model.Message], name: str) -> tuple[Counter, ...]:
+    return tuple(each.counter for each in others if each.name == name and each.counter)
+
+
+def rule(protocol: Protocol, scope: Scope) -> Rule:
     """The rule of a protocol."""
+    others = tuple(readings_of(protocol.model, "counter"))
     counting = tuple(
-        (message, counter) for message in protocol.messages if (counter := message.COUNTER)
+        (message, (counter, *_read_otherwise(others, message.NAME)))
+        for message in protocol.messages
+        if (counter := message.COUNTER)
     )
     return Rule(
         id="counter-sequence",
@@ -124,5 +172,5 @@ def rule(protocol: Protocol) -> Rule:
         ),
         severity=Severity.MUST,
         judges=tuple(dict.fromkeys(message.SENDER for message, _ in counting)),
-        watch=partial(CounterSequence, counters=counting),
+        watch=partial(_watch, counters=counting, open_ends=scope.open_ends),
     )

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from typedcan.judge.chunk import Chunk
+from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Said, Subject
 from typedcan.judge.measure.presence import sent_by
 from typedcan.judge.rule import Rule, Severity, Watcher
@@ -39,8 +39,16 @@ _BEGIN = Tolerance(
         "记录开始后多长时间既无请求也无应答,才视为没有请求;记录可能在请求有效期间开始",
     ),
 )
-
-_ALWAYS = SendType.CYCLIC
+_ALWAYS = Tolerance(
+    name="answer-unasked.always",
+    value=0.8,
+    text=Text(
+        "Share of the frames of its period from which on an answer counts as sent all the time",
+        "应答帧数达到按周期应有帧数的该比例时,视为始终周期发送",
+    ),
+)
+_SEVERAL = 3
+"""Frames that show a period."""
 
 _UNASKED = Text(
     "sent {ago:.3g} s after the last request of the {asker} ended, {limit:.3g} s are allowed",
@@ -64,6 +72,11 @@ class AnswerUnasked(Watcher):
         for asking in self._all:
             asking.feed(chunk)
 
+    def finish(self, end: LogEnd) -> None:
+        """Say of which answers some were not."""
+        for asking in self._all:
+            asking.finish(end)
+
 
 class _Asking:
     """One request and its answers."""
@@ -71,7 +84,9 @@ class _Asking:
     def __init__(self, request: Request, protocol: Protocol, findings: Findings) -> None:
         self._request = request
         # What is sent all the time needs no request, though one may ask for it.
-        self._answers = [each for each in request.answers if each.MODEL.send_type is not _ALWAYS]
+        self._answers = [
+            each for each in request.answers if each.MODEL.send_type is not SendType.CYCLIC
+        ]
         self._askers = sent_by(protocol, request.field.message.SENDER)
         self._findings = findings
         self._limit = findings.limit(_SECONDS)
@@ -81,6 +96,7 @@ class _Asking:
         self._asker: Moment | None = None  # the first frame of the node that asks
         self._first: Moment | None = None  # the first frame of the request's message
         self._answered: dict[type[Message], float] = {}  # when each answer came first
+        self._found = {answer: findings.apart() for answer in self._answers}
 
     def feed(self, chunk: Chunk) -> None:
         message = self._request.field.message
@@ -98,6 +114,17 @@ class _Asking:
                 self._answered.setdefault(answer, float(series.time[series.first]))
             if series.fresh and self._asker:
                 self._judge(series, self._asker, requests)
+
+    def finish(self, end: LogEnd) -> None:
+        """What came at its period for as long as its sender did was sent as it is printed."""
+        always = self._findings.limit(_ALWAYS)
+        for answer, found in self._found.items():
+            if answer in end.messages and answer.PERIOD:
+                seconds = end.nodes[answer.SENDER].seconds
+                due = seconds / answer.PERIOD
+                if found.count and end.messages[answer].frames >= max(always * due, _SEVERAL):
+                    continue
+            self._findings.take(found)
 
     def _judge(self, series: Series, asker: Moment, requests: Sequence[InForce]) -> None:
         ended = _ended(series, requests)
@@ -118,8 +145,9 @@ class _Asking:
 
         message = series.message
         subject = Subject(message.SENDER, message.NAME)
-        self._findings.rows(subject, series, known & ~asked, describe, ago)
-        self._findings.examine(message.SENDER, -unknown)  # those were not judged
+        found = self._found[message]
+        found.rows(subject, series, known & ~asked, describe, ago)
+        found.examine(message.SENDER, -unknown)  # those were not judged
 
     def _known(self, series: Series) -> NDArray[np.bool_]:
         """Whether a frame comes so late that a request must have been seen."""
@@ -162,8 +190,8 @@ def rule(protocol: Protocol) -> Rule:
             "Answers are sent at the wish of the other node and only load the bus otherwise.",
             "应答按对方需求发送;否则只会增加总线负载。",
         ),
-        severity=Severity.MUST,
+        severity=Severity.SHOULD,
         judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in protocol.requests)),
-        tolerances=(_SECONDS, _BEGIN),
+        tolerances=(_SECONDS, _BEGIN, _ALWAYS),
         watch=partial(AnswerUnasked, protocol=protocol),
     )

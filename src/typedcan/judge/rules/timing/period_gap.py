@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from functools import partial
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Subject
 from typedcan.judge.measure.presence import nodes_of, periods_of
+from typedcan.judge.measure.steps import Stopped
 from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.rules.timing.by_turns import watch_periods
 from typedcan.judge.rules.timing.step_findings import add_steps
-from typedcan.judge.tolerance import Tolerance
+from typedcan.judge.tolerance import SILENCE, Tolerance
 from typedcan.report.language import Text
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
@@ -51,14 +55,25 @@ def gap_limit(findings: Findings, period: float) -> float:
 class PeriodGap(Watcher):
     """Looks for long steps, and for messages that stop while their node goes on."""
 
-    def __init__(self, findings: Findings, protocol: Protocol) -> None:
+    def __init__(
+        self,
+        findings: Findings,
+        *,
+        protocol: Protocol,
+        messages: Collection[type[Message]],
+        by_frame: bool,
+    ) -> None:
         super().__init__(findings)
-        self._periods = periods_of(protocol)
+        self._messages = messages
+        self._by_frame = by_frame
+        periods = periods_of(protocol)
+        self._periods = {each: periods[each] for each in messages if each in periods}
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the steps that end here."""
-        for message, steps in chunk.timing.steps.items():
-            if message.PERIOD:
+        for message in self._messages:
+            steps = chunk.timing.of(message, by_frame=self._by_frame)
+            if steps is not None and message.PERIOD:
                 limit = gap_limit(self.findings, message.PERIOD)
                 periods = steps.length / message.PERIOD
                 wrong = steps.length > limit
@@ -66,14 +81,15 @@ class PeriodGap(Watcher):
 
     def finish(self, end: LogEnd) -> None:
         """Judge what stopped before its node did."""
-        for message, detail, time, order in end.stopped:
+        for message, detail, time, order in self._stopped(end):
             node = end.nodes[message.SENDER]
-            if message not in self._periods:
-                continue
             silent = (each.start for each in node.silences if each.start >= time)
             until = next(silent, node.last)
             period, step = self._periods[message], until - time
             limit = gap_limit(self.findings, period)
+            if end.messages[message].frames == 1:
+                # One frame shows no period: it is not late, but has to be silent.
+                limit = max(limit, self.findings.limit(SILENCE) * period)
             if step > limit:
                 self.findings.examine(message.SENDER)
                 self.findings.add(
@@ -93,6 +109,16 @@ class PeriodGap(Watcher):
                     )
                 )
 
+    def _stopped(self, end: LogEnd) -> Iterator[Stopped]:
+        """What came last of the messages that are judged."""
+        if self._by_frame:
+            for message in self._periods:
+                if message in end.messages:
+                    seen = end.messages[message]
+                    yield Stopped(message, "", seen.last, seen.last_order)
+        else:
+            yield from (each for each in end.stopped if each.message in self._periods)
+
 
 def rule(protocol: Protocol) -> Rule:
     """The rule of a protocol."""
@@ -106,5 +132,5 @@ def rule(protocol: Protocol) -> Rule:
         severity=Severity.MUST,
         judges=nodes_of(protocol),
         tolerances=(_SHARE, _EXTRA),
-        watch=partial(PeriodGap, protocol=protocol),
+        watch=partial(watch_periods, protocol=protocol, make=partial(PeriodGap, protocol=protocol)),
     )

@@ -9,6 +9,7 @@ from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.spread import Spread, spread_of
 from typedcan.judge.measure.steps import Steps
 from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.rules.timing.by_turns import watch_periods
 from typedcan.judge.rules.timing.period_gap import gap_limit
 from typedcan.judge.rules.timing.whole_log import WholeLog
 from typedcan.judge.tolerance import Tolerance
@@ -75,5 +76,5 @@ def rule(protocol: Protocol) -> Rule:
         severity=Severity.SHOULD,
         judges=nodes_of(protocol),
         tolerances=(_SHARE, _LEAST),
-        watch=partial(PeriodJitter, protocol=protocol),
+        watch=partial(watch_periods, protocol=protocol, make=PeriodJitter),
     )

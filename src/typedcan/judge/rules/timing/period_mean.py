@@ -8,6 +8,7 @@ from typedcan.judge.findings import Said
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.measure.spread import Spread
 from typedcan.judge.rule import Rule, Severity
+from typedcan.judge.rules.timing.by_turns import watch_periods
 from typedcan.judge.rules.timing.whole_log import WholeLog
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
@@ -61,5 +62,5 @@ def rule(protocol: Protocol) -> Rule:
         severity=Severity.MUST,
         judges=nodes_of(protocol),
         tolerances=(_SHARE, _LEAST),
-        watch=partial(PeriodMean, protocol=protocol),
+        watch=partial(watch_periods, protocol=protocol, make=PeriodMean),
     )

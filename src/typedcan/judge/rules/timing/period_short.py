@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from functools import partial
+
 from typedcan.judge.chunk import Chunk
+from typedcan.judge.findings import Findings
 from typedcan.judge.measure.presence import nodes_of
 from typedcan.judge.rule import Rule, Severity, Watcher
+from typedcan.judge.rules.timing.by_turns import watch_periods
 from typedcan.judge.rules.timing.step_findings import add_steps
 from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
+from typedcan.wire.message import Message
 from typedcan.wire.protocol import Protocol
 
 _SHARE = Tolerance(
@@ -28,11 +34,19 @@ _SHORT = Text(
 class PeriodShort(Watcher):
     """Looks for short steps."""
 
+    def __init__(
+        self, findings: Findings, *, messages: Collection[type[Message]], by_frame: bool
+    ) -> None:
+        super().__init__(findings)
+        self._messages = messages
+        self._by_frame = by_frame
+
     def feed(self, chunk: Chunk) -> None:
         """Judge the steps that end here."""
         share = self.findings.limit(_SHARE)
-        for message, steps in chunk.timing.steps.items():
-            if message.PERIOD:
+        for message in self._messages:
+            steps = chunk.timing.of(message, by_frame=self._by_frame)
+            if steps is not None and message.PERIOD:
                 limit = share * message.PERIOD
                 short_by = 1 - steps.length / message.PERIOD
                 wrong = steps.length < limit
@@ -51,5 +65,5 @@ def rule(protocol: Protocol) -> Rule:
         severity=Severity.SHOULD,
         judges=nodes_of(protocol),
         tolerances=(_SHARE,),
-        watch=PeriodShort,
+        watch=partial(watch_periods, protocol=protocol, make=PeriodShort),
     )

@@ -45,8 +45,7 @@ def add_steps(
     if len(rest):
         worst = rest[np.argmax(measure[rest])]
         found = np.append(found[:room], worst)
-        findings.count += len(rest) - 1
-        findings.frames += len(rest) - 1
+        findings.add_frames(steps.message.NAME, len(rest) - 1)
     for step, order in zip(found.tolist(), steps.before(found).tolist(), strict=True):
         findings.add(_occurrence(steps, step, order, float(measure[step]), text, values))
 

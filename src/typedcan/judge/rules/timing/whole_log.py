@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Collection
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings, Occurrence, Said, Subject
 from typedcan.judge.measure.spread import Spread
 from typedcan.judge.measure.steps import Steps
 from typedcan.judge.rule import Watcher
-from typedcan.wire.protocol import Protocol
+from typedcan.wire.message import Message
 
 
 class WholeLog(Watcher):
     """Adds up the steps of each message."""
 
-    def __init__(self, findings: Findings, protocol: Protocol) -> None:
+    def __init__(
+        self, findings: Findings, *, messages: Collection[type[Message]], by_frame: bool
+    ) -> None:
         super().__init__(findings)
-        self._spread = dict.fromkeys(protocol.messages, Spread())
+        self._by_frame = by_frame
+        self._spread = dict.fromkeys(messages, Spread())
 
     @property
     @abstractmethod
@@ -34,8 +38,9 @@ class WholeLog(Watcher):
 
     def feed(self, chunk: Chunk) -> None:
         """Add the steps that end here."""
-        for message, steps in chunk.timing.steps.items():
-            if message.PERIOD:
+        for message in self._spread:
+            steps = chunk.timing.of(message, by_frame=self._by_frame)
+            if steps is not None and message.PERIOD:
                 self._spread[message] += self.spread(message.PERIOD, steps)
 
     def finish(self, end: LogEnd) -> None:
