@@ -1,11 +1,10 @@
-"""Which files are generated, with which bytes; the only place that writes them."""
+"""Which files are generated, with which bytes."""
 
 from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -21,6 +20,7 @@ from dbcspec.matrix.write import emit_matrix
 from dbcspec.spec.rows import DOCUMENTS
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
+from typedcan.shell.files import put_in_place
 
 _DIFF_LINES = 8
 _SURPLUS = "no longer generated: delete it"
@@ -93,41 +93,19 @@ def foreign_artifacts(protocol: Protocol, name: str) -> dict[str, bytes]:
 
 
 def write(root: Path, files: Mapping[str, bytes]) -> list[str]:
-    """Write what differs and return its paths; raises `ReadError` where a file cannot be written.
+    """Write what differs and return its paths; raises `ReadError` or `CommandError`.
 
     A failure leaves the last generation whole.
     """
     changed = [name for name, data in files.items() if _bytes(root / name) != data]
     targets = {root / name: files[name] for name in changed}
     for target in targets:
-        with _named(target.parent):
+        try:
             target.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ReadError(f"{target.parent}: cannot be written: {error.strerror}") from None
     put_in_place(targets)
     return changed
-
-
-def put_in_place(files: Mapping[Path, bytes]) -> None:
-    """Write all files beside their places, then move them there; raises `ReadError`."""
-    waiting = {target: target.with_name(f".{target.name}.new") for target in files}
-    try:
-        for target, beside in waiting.items():
-            with _named(target):
-                beside.write_bytes(files[target])
-        for target, beside in waiting.items():
-            with _named(target):
-                beside.replace(target)
-    finally:
-        for beside in waiting.values():
-            beside.unlink(missing_ok=True)
-
-
-@contextmanager
-def _named(path: Path) -> Iterator[None]:
-    """Turn what goes wrong while a path is written into one line that names it."""
-    try:
-        yield
-    except OSError as error:
-        raise ReadError(f"{path}: cannot be written: {error.strerror}") from None
 
 
 def verify(

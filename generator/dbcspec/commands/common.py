@@ -8,7 +8,6 @@ import sys
 import typing
 from pathlib import Path
 
-from dbcspec.artifacts import put_in_place
 from dbcspec.config import find_config
 from dbcspec.errors import FindingsError
 from dbcspec.project import Project, load
@@ -20,6 +19,7 @@ from typedcan.report.formats import FORMATS, render
 from typedcan.report.item import Report
 from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import say_text
+from typedcan.shell.files import put_in_place
 
 
 class Commands(typing.Protocol):

@@ -6,7 +6,6 @@ import argparse
 import dataclasses
 from pathlib import Path
 
-from dbcspec.artifacts import put_in_place
 from dbcspec.commands import HELP
 from dbcspec.commands.common import (
     Commands,
@@ -33,6 +32,7 @@ from typedcan.report.item import LINT_LEVELS, Report
 from typedcan.report.rules import print_rules
 from typedcan.shell.algorithms import add_algorithm_option
 from typedcan.shell.console import say_text
+from typedcan.shell.files import put_in_place
 from typedcan.shell.printing import print_remark
 
 

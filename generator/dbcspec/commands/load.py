@@ -6,7 +6,6 @@ import argparse
 from fractions import Fraction
 from pathlib import Path
 
-from dbcspec.artifacts import put_in_place
 from dbcspec.commands import HELP
 from dbcspec.commands.common import Commands, project_option, source_protocol
 from dbcspec.load.analysis import BusLoad, analyse
@@ -16,6 +15,7 @@ from dbcspec.load.traffic import Scenario, Size
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Bus, Protocol
 from typedcan.shell.console import say_text
+from typedcan.shell.files import put_in_place
 from typedcan.shell.printing import printable, printable_json
 
 _EXAMPLES = """examples:

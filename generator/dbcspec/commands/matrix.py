@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from dbcspec.artifacts import put_in_place, write
+from dbcspec.artifacts import write
 from dbcspec.commands import HELP
 from dbcspec.commands.common import (
     Commands,
@@ -24,6 +24,7 @@ from dbcspec.spec.write import propose_spec
 from typedcan.model.errors import ReadError
 from typedcan.report.item import Report
 from typedcan.shell.console import note, say
+from typedcan.shell.files import put_in_place
 
 
 def add(commands: Commands) -> None:

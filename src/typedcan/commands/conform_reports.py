@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import secrets
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from typedcan.judge import Judgement
 from typedcan.judge.report import environment, moments, summary, to_csv, to_html, to_json, to_junit
 from typedcan.report.language import Language
 from typedcan.shell.console import CommandError, note, say_text
+from typedcan.shell.files import put_in_place
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,17 +114,12 @@ class Reports:
 
 
 def _put(path: Path, text: str) -> None:
-    """Write a file that replaces what is there once it is complete."""
-    draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
+    """Write a file, in a folder that is made for it."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            draft.write_bytes(text.encode("utf-8"))
-            draft.replace(path)
-        finally:
-            draft.unlink(missing_ok=True)
     except OSError as error:
         raise CommandError(f"{path}: cannot be written: {error.strerror or error}") from None
+    put_in_place({path: text.encode("utf-8")})
 
 
 def _has_colours() -> bool:

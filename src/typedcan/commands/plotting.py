@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import secrets
 from pathlib import Path
 
 from typedcan.commands.log_protocol import log_protocol
@@ -17,6 +16,7 @@ from typedcan.logs.transfers.readings import Readings
 from typedcan.model.plain import shown
 from typedcan.shell.algorithms import algorithms_of
 from typedcan.shell.console import CommandError, note
+from typedcan.shell.files import put_in_place
 
 DAMAGED = 3
 """Exit status where the log is damaged."""
@@ -95,11 +95,4 @@ def _write(output: Path, plot: Plot) -> None:
     """The file appears complete or not at all."""
     is_page = output.suffix.lower() == ".html"
     content = to_html(plot).encode() if is_page else to_picture(plot)
-    draft = output.with_name(f".{output.name}.{secrets.token_hex(4)}")
-    try:
-        draft.write_bytes(content)
-        draft.replace(output)
-    except OSError as error:
-        raise CommandError(f"{output}: {error.strerror or error}") from None
-    finally:
-        draft.unlink(missing_ok=True)
+    put_in_place({output: content})

@@ -130,6 +130,13 @@ class Parser(argparse.ArgumentParser):
         """Raise the message as `CommandError`."""
         raise CommandError(f"{message}; see {self.prog} --help")
 
+    def print_help(self, file: object = None) -> None:
+        """Print help as results are: argparse says nothing where it cannot be written."""
+        if file is None:
+            say_text(self.format_help())
+        else:
+            super().print_help(sys.stderr)
+
 
 def completing_files(*arguments: argparse.Action) -> None:
     """Let the shell complete these by the names of files."""
@@ -170,8 +177,9 @@ def run(
     try:
         status = _dispatch(program, arguments)
         finish()
-    except OutputClosedError:  # the reader went away: leave quietly
-        return 1
+    except OutputClosedError:
+        note("nobody reads the output any more")
+        return 2
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # noqa: BLE001 - what drivers and files bring about is no list
