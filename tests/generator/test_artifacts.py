@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 from pathlib import Path
+from typing import IO, Any
 
 import pytest
 from generator.small_spec import write_project
@@ -13,6 +14,7 @@ from dbcspec.config import find_config
 from dbcspec.project import Project, load
 from dbcspec.spec.variants import with_variants
 from typedcan.model.errors import ReadError
+from typedcan.shell.console import CommandError
 
 DBC_FILES = ("thermo.dbc", "thermo.zh.dbc", "thermo.zh-utf8.dbc", "thermo-house.dbc")
 
@@ -50,7 +52,7 @@ def test_a_project_without_python_gets_dbc_files_and_schemas(small: Project) -> 
     }
     schemas = {name for name in names if name.startswith("spec/schema/")}
     assert names - schemas == {f"out/{name}" for name in DBC_FILES}
-    assert len(schemas) == 7
+    assert len(schemas) == 8
 
 
 def test_a_project_with_python_gets_stubs_and_its_main_dbc_beside_them(tmp_path: Path) -> None:
@@ -125,16 +127,16 @@ def test_a_write_that_fails_half_way_leaves_the_old_files_whole(
     root, files = small.config.root, files_of(small)
     write(root, dict.fromkeys(files, b"the last generation"))
     before = on_disk(root)
-    write_bytes, written = Path.write_bytes, []
+    opened, written = Path.open, list[Path]()
 
-    def full_disk(path: Path, data: bytes) -> int:
-        written.append(path)
+    def full_disk(path: Path, mode: str = "r", **options: Any) -> IO[Any]:
+        written.extend([path] if mode == "xb" else [])
         if len(written) == 4:
             raise OSError(errno.ENOSPC, "full", str(path))
-        return write_bytes(path, data)
+        return opened(path, mode, **options)
 
-    monkeypatch.setattr(Path, "write_bytes", full_disk)
-    with pytest.raises(ReadError, match=r"cannot be written: full$"):
+    monkeypatch.setattr(Path, "open", full_disk)
+    with pytest.raises(CommandError, match=r"cannot be written: full$"):
         write(root, files)
     assert len(written) == 4
     assert on_disk(root) == before

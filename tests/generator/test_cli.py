@@ -37,7 +37,7 @@ def test_generating_the_project_itself_makes_the_files_that_are_committed(
     assert result.stdout.startswith("caamtb-swap: 25 messages, 211 signals, ")
     made = snapshot(tmp_path)
     written = [line.removeprefix("wrote ") for line in result.stdout.splitlines()[1:-1]]
-    assert len(written) == 25
+    assert len(written) == 26
     for name in written:
         assert made[name] == (root / name).read_bytes(), name
 
