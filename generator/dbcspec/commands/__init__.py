@@ -14,7 +14,7 @@ HELP: Mapping[str, str] = {
     "textconv": "print a protocol line by line, for git's textconv",
     "compare": "say what changed between two protocols, and whom it breaks",
     "matrix": "write or read the Excel CAN matrix",
-    "import": "write a first spec folder from a DBC or another file",
+    "import": "write a first spec folder, or a first edition, from a DBC or another file",
     "load": "bus load, worst-case response times, and what still fits",
 }
 """What each command does, in a line, in the order of the help."""

@@ -16,6 +16,8 @@ from dbcspec.commands.common import (
     source_protocol,
 )
 from dbcspec.compare.run import RULES, compare
+from dbcspec.config import find_config
+from dbcspec.edition.propose import propose_edition
 from dbcspec.emit.spec import emit_spec
 from dbcspec.matrix.read import read_matrix
 from dbcspec.matrix.write import emit_matrix
@@ -53,7 +55,17 @@ def add(commands: Commands) -> None:
     foreign = commands.add_parser("import", help=text, description=f"{text.capitalize()}.")
     foreign.set_defaults(run=_import)
     foreign.add_argument("file", help="a DBC, matrix, KCD, SYM or ARXML")
-    foreign.add_argument("--out", type=Path, required=True, help="a folder that is new or empty")
+    project_option(foreign)
+    to = foreign.add_mutually_exclusive_group(required=True)
+    to.add_argument("--out", type=Path, help="a folder that is new or empty")
+    to.add_argument(
+        "--as-edition",
+        metavar="NAME",
+        help="write what FILE says otherwise than the project's spec as an edition of it",
+    )
+    foreign.add_argument(
+        "--over", metavar="EDITION", default="", help="with --as-edition: over that edition"
+    )
     foreign.add_argument("--encoding", help="of FILE, where it is not to be found out")
 
 
@@ -83,9 +95,27 @@ def _import_matrix(options: argparse.Namespace) -> int:
 
 
 def _import(options: argparse.Namespace) -> int:
+    if options.as_edition is not None:
+        return _import_edition(options)
+    if options.over:
+        raise ReadError("--over goes together with --as-edition")
     if options.out.exists() and any(options.out.iterdir()):
         raise ReadError(f"{options.out}: is not empty; a spec is written into a folder of its own")
     protocol = open_side(options.file, encoding=options.encoding).protocol
     for name in write(options.out, emit_spec(protocol)):
         say(f"wrote {options.out / name}")
+    return 0
+
+
+def _import_edition(options: argparse.Namespace) -> int:
+    config = find_config(options.project.resolve())
+    found = open_side(options.file, encoding=options.encoding).protocol
+    title = Path(options.file.rsplit(":", 1)[-1]).name
+    patch = propose_edition(config, options.as_edition, found, title, options.over)
+    folder = f"{config.spec}/editions/{options.as_edition}"
+    for name in write(config.root / folder, patch.files):
+        say(f"wrote {folder}/{name}")
+    for text in patch.notes:
+        note(f"not written: {text}")
+    say(f"{patch.deviations} deviations, {patch.messages} more messages: go over each of them")
     return 0

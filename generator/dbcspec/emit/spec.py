@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter as Counts
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from dbcspec.emit.spec_database import database_lines
 from dbcspec.emit.spec_yaml import Pairs, flow_entries, list_lines, mapping_lines, scalar
@@ -126,10 +126,11 @@ def _messages(protocol: Protocol) -> Iterator[str]:
     yield f"byte_order: {usual.value}"
     yield "messages:" if protocol.messages else "messages: []"
     for message in protocol.messages:
-        yield from _message(message, protocol, usual)
+        yield from message_lines(message, protocol, usual)
 
 
-def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator[str]:
+def message_lines(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator[str]:
+    """An entry of messages.yaml; the protocol tells what goes without saying."""
     extended = protocol.frame_format != "StandardCAN"
     by_pgn = message.extended and protocol.frame_format == "J1939PG"
     orders = Counts(signal.byte_order for signal in message.signals)
@@ -155,7 +156,7 @@ def _message(message: Message, protocol: Protocol, usual: ByteOrder) -> Iterator
     prefixes = (f"{message.name}_", shared_prefix([signal.name for signal in message.signals]))
     yield "    signals:" if message.signals or message.reserved else "    signals: []"
     for signal in message.signals:
-        yield f"      - {{{flow_entries(_field(signal, order, prefixes))}}}"
+        yield f"      - {{{flow_entries(field_pairs(signal, order, prefixes))}}}"
     for bits in message.reserved:
         own_order = bits.byte_order.value if bits.byte_order is not order else None
         place: Pairs = [("length", bits.length), ("start", bits.start), ("byte_order", own_order)]
@@ -167,7 +168,8 @@ def _reserved_name(protocol: Protocol) -> str:
     return unused("Reserved", {signal.name for _, signal in protocol.signals()})
 
 
-def _field(signal: Signal, order: ByteOrder, prefixes: tuple[str, ...]) -> Pairs:
+def field_pairs(signal: Signal, order: ByteOrder, prefixes: tuple[str, ...]) -> Pairs:
+    """A signal's place in its message, whose byte order is given, as messages.yaml has it."""
     derived = field_name(signal.name, prefixes)
     kind = "float" if signal.is_float else "signed"
     usual = usual_start(signal.invalid_code, signal.acting)
@@ -193,10 +195,11 @@ def _table(message: Message, count: int, repeated: set[str]) -> Iterator[str]:
     yield "rows:"
     for row, signal in enumerate(message.signals, start=1):
         yield f"  - no: {row}"
-        yield from mapping_lines(4, _row(message, signal, repeated))
+        yield from mapping_lines(4, row_pairs(message, signal, repeated))
 
 
-def _row(message: Message, signal: Signal, repeated: set[str]) -> Pairs:
+def row_pairs(message: Message, signal: Signal, repeated: Collection[str]) -> Pairs:
+    """A row of a table; with its message where the signal's name is ``repeated`` in another."""
     limits = signal.minimum, signal.maximum
     is_open = signal.is_float and limits == float_limits(signal.length)
     codes = signal.value_table.codes if signal.value_table else ()

@@ -63,7 +63,8 @@ BITS = whole_number(1, 8 * _MOST)
 START = whole_number(0, 8 * _MOST - 1)
 CODES = Kind("codes and their labels", _read_codes, _CODES.schema)
 LIST_OF_TEXT = list_of(TEXT)
-EDITION = pattern("a name (letters, digits, dot, dash)", r"[A-Za-z0-9][A-Za-z0-9._-]{0,40}", str)
+EDITION_NAME = r"[A-Za-z0-9][A-Za-z0-9._-]{0,40}"
+EDITION = pattern("a name (letters, digits, dot, dash)", EDITION_NAME, str)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
