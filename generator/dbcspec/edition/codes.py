@@ -31,7 +31,7 @@ class NewCodes:
 
 def says_reserved(signal: Signal) -> bool:
     """Whether its name or its title says that its bits are reserved."""
-    name = re.sub(r"[_\d]+$", "", signal.name)
+    name = re.sub(r"(?<=[a-z])(?=[A-Z])|[_\d]+$", " ", signal.name)
     return is_reserved(name) or bool(re.fullmatch(r"(?:预留|保留)\w{0,3}", signal.title.strip()))
 
 
