@@ -185,6 +185,11 @@ _add(
     ),
     "hv-off-asked",
 )
+_add(
+    "drive-ends-on-alarm",
+    signals("B2V_ST1", 3.5, 10.0, B2V_ST1_Fault_Levl=3),
+    "alarm-level-highest",
+)
 _add("discharge-limit", signals("B2V_ST2", 4.0, 7.0, B2V_ST2_MaxLmt_DisChgCurr=0))
 _add(
     "feedback-limit",
@@ -201,6 +206,11 @@ _add("charger-stops", signals("B2C_Charger", 17.0, 24.0, B2V_S_ChargeControl=1))
 _add(
     "charge-stops-on-fault",
     signals("C2B_ACStatus", 17.0, 22.0, C2B_F_ChargerHardware=1),
+    "charger-fault-told",
+)
+_add(
+    "charge-limited-when-hot",
+    signals("C2B_ACStatus", 16.3, 23.5, C2B_F_ChargerOverTemp=1),
     "charger-fault-told",
 )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from rules.alterations import CSCS, PLAN, SECONDS
+from rules.alterations import BMU, CSCS, PLAN, SECONDS
 from rules.altered import Alteration, added, again, both, lost_between, on_channel, signals
 from rules.habits import answers_always, counts, filled, numbered_through, one_each_period, summed
 from rules.in_blocks import NODES, broken, judged_by_all
@@ -91,10 +91,12 @@ def test_further_packs_with_such_habits_break_no_demand(
 
 
 SILENT = {
+    "BMU": BMU,
     "BSU": ("BSU_BMS_0",),
     "TMS": ("TMS_BMS_0",),
     "VCU": ("V2B_CMD", "V2B_RQData", "V2B_VIN"),
 }
+"""The messages of nodes; a BMU that was switched off may sleep, as the others may not."""
 
 
 @pytest.mark.parametrize("node", SILENT)
@@ -103,8 +105,19 @@ SILENT = {
 def test_a_node_that_is_silent_for_ten_seconds_is_told(node: str, plan: str, begin: float) -> None:
     frames = recorded(plan, seconds=SECONDS, cscs=CSCS)
     judgement = judged_by_all(lost_between(SILENT[node], begin, begin + 10.5)(frames))
-    assert demands(judgement) & {"node-awake", "node-silence"}
-    assert judgement.verdict is Verdict.VIOLATES
+    told = {"node-awake", "node-silence"}
+    assert broken(judgement) & told
+    if node != "BMU" or "hv_on" in plan:
+        assert demands(judgement) & told
+        assert judgement.verdict is Verdict.VIOLATES
+
+
+def test_a_pack_that_is_off_the_truck_is_not_missed() -> None:
+    frames = recorded("ask@1s", seconds=SECONDS, cscs=CSCS)
+    gone = lost_between(BMU, 3.0, 13.5)(frames)
+    off = signals("BSU_BMS_0", 4.0, 12.0, BSU_Lock=1, BSU_ConnectSt=2)(gone)
+    assert broken(judged_by_all(gone)) == {"node-awake"}
+    assert broken(judged_by_all(off)) == set()
 
 
 @pytest.mark.parametrize("channel", ["vehicle", "charger"])

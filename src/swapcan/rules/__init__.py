@@ -55,8 +55,6 @@ SCOPE = Scope(
             *_names(V2B_CMD, *(name for name in V2B_CMD.FIELDS if name not in _COMMANDS)),
         }
     ),
-    # It sleeps after high voltage is off (5.2.1.4).
-    may_sleep=frozenset({node_awake.PACK}),
     open_codes={
         # An unused field is filled with 0 by many; the level that E54 asks for has no meaning.
         **dict.fromkeys(

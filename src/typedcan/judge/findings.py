@@ -235,7 +235,7 @@ class Findings(Limits):
         for name in (str(found.subject), found.subject.signal, found.subject.message):
             if name in self._errata and not found.is_open:
                 found = replace(found, is_open=True, errata=self._errata[name])
-                self.open_count += 1
+        self.open_count += found.is_open
         self.count += 1
         self.frames += found.frames
         self.worst = found if self.worst is None else _worse(self.worst, found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swapcan.rules.charging import (
     charge_current_sign,
+    charge_limited_when_hot,
     charge_line_connected,
     charge_stops_on_fault,
     charger_current_limit,
@@ -21,4 +22,5 @@ RULES: tuple[Rule, ...] = (
     charger_current_limit.RULE,
     charger_stops.RULE,
     charge_stops_on_fault.RULE,
+    charge_limited_when_hot.RULE,
 )

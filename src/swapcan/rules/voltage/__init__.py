@@ -5,6 +5,7 @@ from __future__ import annotations
 from swapcan.rules.voltage import (
     bus_voltage_follows,
     discharge_limit,
+    drive_ends_on_alarm,
     feedback_limit,
     hv_closed_relays,
     hv_off_in_time,
@@ -27,6 +28,7 @@ RULES: tuple[Rule, ...] = (
     bus_voltage_follows.RULE,
     hv_off_in_time.RULE,
     hv_off_requested.RULE,
+    drive_ends_on_alarm.RULE,
     discharge_limit.RULE,
     feedback_limit.RULE,
 )

@@ -6,8 +6,19 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from swapcan.messages import B2V_ST1, BmsState, C2B_ACStatus, ChargeLine, ChargeState
+from swapcan.messages import (
+    B2V_ST1,
+    BSU_BMS_0,
+    V2B_CMD,
+    BmsState,
+    C2B_ACStatus,
+    ChargeLine,
+    ChargeState,
+    ConnectorState,
+    LockState,
+)
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.measure.presence import Silence
 
@@ -25,11 +36,14 @@ class Known:
         Raw values of B2V_ST1.
     current
         Raw output current of C2B_ACStatus.
+    command
+        Raw V2B_CMD_HV_OnOff.
     """
 
     bms: int | None = None
     chg_st: int | None = None
     current: int | None = None
+    command: int | None = None
 
     @property
     def high_voltage_on(self) -> bool:
@@ -43,11 +57,18 @@ class Known:
 
 
 class KnownSilence(NamedTuple):
-    """A silence, what was known when it began, and whether the charging gun was off during it."""
+    """A silence, what was known when it began, and what was told during it.
+
+    Parameters
+    ----------
+    unplugged, swapped
+        Whether the charging gun was off, and the pack not locked or not connected.
+    """
 
     silence: Silence
     known: Known
     unplugged: bool
+    swapped: bool
 
     @property
     def told(self) -> bool:
@@ -66,7 +87,8 @@ class Silences:
 
     def __init__(self) -> None:
         self._last: dict[str, Known] = {}
-        self._unplugged = -1  # number of the last frame that told that the gun was off
+        # Numbers of the last frames that told that the gun, and that the pack, was off.
+        self._unplugged = self._swapped = -1
 
     def feed(self, chunk: Chunk) -> list[KnownSilence]:
         """The silences that ended in the next frames."""
@@ -74,23 +96,27 @@ class Silences:
             KnownSilence(
                 each,
                 self._when(chunk, each),
-                self._was_unplugged(chunk, each.order, each.next_order),
+                _is_between(each, self._unplugged, _gun_off(chunk)),
+                _is_between(each, self._swapped, _pack_off(chunk)),
             )
             for each in chunk.timing.silences
         ]
         for node, seen in chunk.nodes.items():
             if seen.last_order >= chunk.first_order:
                 self._last[node] = _known(chunk, seen.last_order)
-        status = chunk.sound(B2V_ST1)
-        off = np.flatnonzero(status.raw("chg_line") == ChargeLine.NOT_CONNECTED)
-        if len(off):
-            self._unplugged = int(status.order[off[-1]])
+        self._unplugged = int(max(_gun_off(chunk), default=self._unplugged))
+        self._swapped = int(max(_pack_off(chunk), default=self._swapped))
         return found
 
     def finish(self, end: LogEnd) -> list[KnownSilence]:
         """The nodes that are silent when the log ends."""
         return [
-            KnownSilence(each, self._last[each.node], self._unplugged > each.order)
+            KnownSilence(
+                each,
+                self._last[each.node],
+                self._unplugged > each.order,
+                self._swapped > each.order,
+            )
             for each in end.silent
         ]
 
@@ -99,10 +125,25 @@ class Silences:
             return _known(chunk, silence.order)
         return self._last[silence.node]
 
-    def _was_unplugged(self, chunk: Chunk, after: int, until: int) -> bool:
-        status = chunk.sound(B2V_ST1)
-        off = status.order[status.raw("chg_line") == ChargeLine.NOT_CONNECTED]
-        return after < self._unplugged or bool(((off > after) & (off < until)).any())
+
+def _gun_off(chunk: Chunk) -> NDArray[np.int64]:
+    status = chunk.sound(B2V_ST1)
+    found: NDArray[np.int64] = status.order[status.raw("chg_line") == ChargeLine.NOT_CONNECTED]
+    return found
+
+
+def _pack_off(chunk: Chunk) -> NDArray[np.int64]:
+    swap = chunk.sound(BSU_BMS_0)
+    off = swap.raw("lock") == LockState.UNLOCKED
+    off |= swap.raw("connect_st") == ConnectorState.NOT_CONNECTED
+    found: NDArray[np.int64] = swap.order[off]
+    return found
+
+
+def _is_between(silence: Silence, before: int, now: NDArray[np.int64]) -> bool:
+    """Whether a frame came during a silence: the last one of before, or one of these."""
+    during = (now > silence.order) & (now < silence.next_order)
+    return before > silence.order or bool(during.any())
 
 
 def _known(chunk: Chunk, order: int) -> Known:
@@ -116,4 +157,8 @@ def _known(chunk: Chunk, order: int) -> Known:
     row = int(np.searchsorted(charger.order, order, "right")) - 1
     if row >= 0:
         known = replace(known, current=int(charger.raw("current_output")[row]))
+    commands = chunk.sound(V2B_CMD)
+    row = int(np.searchsorted(commands.order, order, "right")) - 1
+    if row >= 0:
+        known = replace(known, command=int(commands.raw("hv_on_off")[row]))
     return known

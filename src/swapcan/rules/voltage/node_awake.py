@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swapcan.messages import HvCommand
 from swapcan.rules.voltage.known_silences import KnownSilence, Silences
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings
 from typedcan.judge.measure.presence import Silence
 from typedcan.judge.rules.timing.node_awake import NodeAwake
 
-PACK, CHARGER = "BMU", "CHG"
+PACK, CHARGER, VEHICLE = "BMU", "CHG", "VCU"
 
 
 class NodeAwakeHere(NodeAwake):
-    """As for any protocol, but for the charger, and for what `node-silence` tells.
+    """As for any protocol, but for charger and pack, and for what `node-silence` tells.
 
-    A charger is gone once the BMU tells that its gun is off, or a pack is no longer there. The BMU
-    sleeps after high voltage is off (5.2.1.4), and `node-silence` looks at it before.
+    A charger is gone once the BMU tells that its gun is off, or a pack is no longer there; and a
+    pack once the swap controller tells that it is off. The BMU sleeps after the command to switch
+    off (5.2.1.4), though not while the VCU is awake, as E64 reads it.
     """
 
     def __init__(self, findings: Findings) -> None:
-        super().__init__(findings, may_sleep=frozenset({PACK}))
+        super().__init__(findings)
         self._silences = Silences()
         self._known: dict[Silence, KnownSilence] = {}
 
@@ -39,4 +41,13 @@ class NodeAwakeHere(NodeAwake):
         found = self._known[silence]
         if silence.node == CHARGER and (found.unplugged or PACK not in awake):
             return True
+        slept = found.known.command in (HvCommand.HV_OFF, None) and VEHICLE not in awake
+        if silence.node == PACK and (found.swapped or slept):
+            return True
         return found.told
+
+    def errata(self, silence: Silence) -> tuple[str, ...]:
+        """A pack that was switched off may sleep, and so may one of which that is not known."""
+        known = self._known[silence].known
+        may = silence.node == PACK and known.command in (HvCommand.HV_OFF, None)
+        return ("E64",) if may else ()

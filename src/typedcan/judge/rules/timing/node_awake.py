@@ -59,12 +59,16 @@ class NodeAwake(Watcher):
                 if awake and not self.excused(silence, awake):
                     self._found(silence, awake)
 
+    def errata(self, silence: Silence) -> tuple[str, ...]:  # noqa: ARG002
+        """What a finding rests on where the standard leaves open whether a node may be silent."""
+        return ()
+
     def excused(self, silence: Silence, awake: Sequence[str]) -> bool:  # noqa: ARG002
         """Whether a node may be silent here; ``awake`` are the others that were not."""
         return False
 
     def _found(self, silence: Silence, others: list[str]) -> None:
-        step = silence.end - silence.start
+        step, errata = silence.end - silence.start, self.errata(silence)
         self.findings.add(
             Occurrence(
                 subject=Subject(silence.node),
@@ -74,6 +78,8 @@ class NodeAwake(Watcher):
                 measure=step,
                 text=_SILENT,
                 values={"step": step, "others": ", ".join(others), "limit": self._limit},
+                is_open=bool(errata),
+                errata=errata,
             )
         )
 
