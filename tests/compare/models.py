@@ -11,6 +11,13 @@ from typing import Any
 from hypothesis import strategies as st
 
 from typedcan.model.acting import ActingCodes
+from typedcan.model.extras import (
+    Attribute,
+    AttributeDefinition,
+    EnvironmentVariable,
+    Relation,
+    SignalGroup,
+)
 from typedcan.model.protection import Checksum, Counter
 from typedcan.model.protocol import (
     Bus,
@@ -51,6 +58,7 @@ acting = st.builds(
     reports=st.booleans(),
     reference=texts,
 )
+attributes = st.sampled_from([(), (Attribute("SPN", "1"),), (Attribute("SPN", "2"),)])
 node_lists = st.lists(st.sampled_from(NODES), max_size=3, unique=True).map(tuple)
 
 
@@ -84,6 +92,7 @@ def signals(name: str) -> st.SearchStrategy[Signal]:
         python_name=texts,
         reference=texts,
         errata=marks,
+        attributes=attributes,
     )
 
 
@@ -130,7 +139,19 @@ def messages(number: int) -> st.SearchStrategy[Message]:
         ),
         reference=texts,
         errata=marks,
+        groups=st.just(()) | st.tuples(groups),
+        attributes=attributes,
+        relations=st.just(()) | st.tuples(relations),
     )
+
+
+groups = st.builds(
+    SignalGroup,
+    name=st.just("G"),
+    repetitions=st.integers(1, 2),
+    signals=st.sampled_from([("A",), ("A", "B")]),
+)
+relations = st.builds(Relation, name=texts, node=st.sampled_from(NODES), value=texts, signal=texts)
 
 
 def nodes(name: str) -> st.SearchStrategy[Node]:
@@ -143,6 +164,7 @@ def nodes(name: str) -> st.SearchStrategy[Node]:
         address=st.none() | st.integers(0, 255),
         other_addresses=st.sampled_from([(), (1,), (1, 2)]),
         errata=marks,
+        attributes=attributes,
     )
 
 
@@ -216,6 +238,26 @@ protocols = st.builds(
     transfers=st.just(()) | st.tuples(transfers),
     requests=st.just(()) | st.tuples(requests),
     errata=st.just(()) | st.tuples(errata),
+    version=texts,
+    attributes=attributes,
+    definitions=st.just(())
+    | st.tuples(
+        st.builds(AttributeDefinition, st.just("SPN"), st.just("SG_"), texts, st.none() | texts)
+    ),
+    variables=st.just(())
+    | st.tuples(
+        st.builds(
+            EnvironmentVariable,
+            name=st.just("V"),
+            kind=st.integers(0, 2),
+            minimum=texts,
+            initial=texts,
+            nodes=node_lists,
+            size=st.none() | st.integers(1, 9),
+            codes=st.just(()) | st.tuples(st.tuples(st.integers(0, 3), texts)),
+            attributes=attributes,
+        )
+    ),
 )
 
 
@@ -237,7 +279,10 @@ def mutations(value: Any, place: str = "") -> Iterator[tuple[str, Any]]:
 def _tuple_mutations(value: tuple[Any, ...], place: str) -> Iterator[tuple[str, Any]]:
     if value:
         yield f"{place} without its last", value[:-1]
-    ordered = ("ValueTable.codes", "Signal.selectors", "Request.answers", "ActingCodes.codes")
+    ordered = (
+        *("ValueTable.codes", "Signal.selectors", "Request.answers", "ActingCodes.codes"),
+        "SignalGroup.signals",
+    )
     if len(value) > 1 and place not in ordered:
         yield f"{place} reversed", value[::-1]
     for index, item in enumerate(value):

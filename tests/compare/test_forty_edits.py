@@ -43,6 +43,10 @@ NOT_IN_THIS_FILE = frozenset(
     {
         "message-extended-same",  # no identifier of it fits into 11 bits
         "message-frame-format-same",  # its attribute knows no CAN FD
+        "attribute-same",  # it has none of other tools
+        "attribute-definition-same",
+        "signal-group-same",
+        "environment-variable-same",
         "reserved-signal-present",  # it gives reserved bits no names
         "signal-float-same",  # no signal of it has 32 bits
         "frame-format-same",  # one attribute for each message, so no single edit

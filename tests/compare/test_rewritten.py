@@ -82,7 +82,7 @@ def test_a_file_that_cantools_writes_again_is_no_different(
 
 
 @over_all_files
-def test_a_file_that_canmatrix_writes_again_loses_the_comment_of_the_file_alone(
+def test_a_file_that_canmatrix_writes_again_loses_the_comment_of_the_file_and_has_its_version(
     name: str, root: Path, tmp_path: Path
 ) -> None:
     path, after = root / "dbc" / name, tmp_path / "after.dbc"
@@ -95,4 +95,7 @@ def test_a_file_that_canmatrix_writes_again_loses_the_comment_of_the_file_alone(
         {"": matrix}, str(after), dbcExportEncoding="utf-8", dbcExportCommentEncoding="utf-8"
     )
     items = compare(read_dbc(path), read_dbc(after))
-    assert [(item.rule, item.subject) for item in items] == [("comment-same", "protocol")]
+    assert [(item.rule, item.subject) for item in items] == [
+        ("comment-same", "protocol"),
+        ("attribute-definition-same", "version"),
+    ]

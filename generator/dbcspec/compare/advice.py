@@ -10,6 +10,7 @@ _OLD_RECEIVERS = "bring every receiver up to date first"
 _OLD_SENDERS = "read the old form too until every sender is up to date"
 _NODES = "tell those who build these nodes"
 _PROGRAMS = "regenerate, and adapt the programs that use the old name"
+_TOOLS = "see which tools go by them"
 _NOTHING_TO_DO = "nothing to do on the bus"
 _OLD_IGNORE = "harmless where old receivers ignore what they do not know"
 
@@ -55,6 +56,10 @@ _ADVICE: Mapping[str, tuple[str, str]] = {
     "signal-range-not-narrowed": ("ranges are narrower", _OLD_SENDERS),
     "signal-receivers-same": ("receivers differ", _NODES),
     "signal-start-value-same": ("start values differ", "see what is sent before values are known"),
+    "signal-group-same": ("signal groups differ", _TOOLS),
+    "attribute-same": ("attributes of other tools differ", _TOOLS),
+    "environment-variable-same": ("environment variables differ", _TOOLS),
+    "attribute-definition-same": ("definitions of attributes differ", _NOTHING_TO_DO),
     "message-added": ("messages are new", _OLD_IGNORE),
     "signal-added": ("signals are new", _OLD_IGNORE),
     "signal-range-not-widened": ("ranges are wider", _OLD_RECEIVERS),

@@ -58,18 +58,9 @@ class CodesPair:
 
 def code_pairs(pairing: Pairing) -> Iterator[CodesPair]:
     """Each pair of value tables that differ in a code, in the order of their first signals."""
-    users: dict[tuple[ValueTable | None, ValueTable | None], list[SignalPair]] = {}
-    same: dict[tuple[int, int], bool] = {}
-    for signal in pairing.signals:
-        old, new = signal.old.value_table, signal.new.value_table
-        if old is not new:
-            key = id(old), id(new)
-            if key not in same:
-                same[key] = _codes(old) == _codes(new)
-            if not same[key]:
-                users.setdefault((old, new), []).append(signal)
-    for (old, new), signals in users.items():
-        yield CodesPair(signals[0], tuple(signals[1:]), _by_value(old), _by_value(new))
+    for signals in pairing.signals_by_tables:
+        old, new = signals[0].old.value_table, signals[0].new.value_table
+        yield CodesPair(signals[0], signals[1:], _by_value(old), _by_value(new))
 
 
 def differing_in(difference: Difference, word: str, show: Callable[[Code, str], str]) -> Check:
@@ -81,10 +72,11 @@ def differing_in(difference: Difference, word: str, show: Callable[[Code, str], 
     def check(pairing: Pairing) -> Iterator[Change]:
         for codes in code_pairs(pairing):
             before, after = _members(codes.old), _members(codes.new)
+            changed_places = reversed_codes(pairing, codes)
             shown = [
                 (value, show(codes.old[value], before[value]), show(codes.new[value], after[value]))
                 for value, way in _differences(pairing, codes).items()
-                if way is difference and value not in reversed_codes(pairing, codes)
+                if way is difference and value not in changed_places
             ]
             if shown:
                 steps = [f"{value} {was} → {now}" for value, was, now in shown]
@@ -105,19 +97,26 @@ def reversed_codes(pairing: Pairing, codes: CodesPair) -> frozenset[int]:
     ]
     if not 2 <= len(different) <= _MOST_REVERSED:
         return frozenset()
-    return frozenset(
-        value
+    before, after = (
+        {value: _texts(side[value]) for value in different} for side in (codes.old, codes.new)
+    )
+    moved = {
+        (value, other)
         for value in different
         for other in different
         if value != other
-        and _same_label(codes.old[value], codes.new[other])
-        and _same_label(codes.old[other], codes.new[value])
-    )
+        and (not before[value].isdisjoint(after[other]) or _agree(codes, value, other))
+    }
+    return frozenset(value for value, other in moved if (other, value) in moved)
 
 
-def _same_label(old: Code, new: Code) -> bool:
-    before, after = ({plain(code.label), plain(code.english)} - {""} for code in (old, new))
-    return not before.isdisjoint(after) or agree(old.english or old.label, new.english or new.label)
+def _texts(code: Code) -> set[str]:
+    return {plain(code.label), plain(code.english)} - {""}
+
+
+def _agree(codes: CodesPair, value: int, other: int) -> bool:
+    old, new = codes.old[value], codes.new[other]
+    return agree(old.english or old.label, new.english or new.label)
 
 
 def one_sided(codes: CodesPair, pairing: Pairing, *, removed: bool) -> list[Code]:
@@ -156,12 +155,8 @@ def shortened(parts: Iterable[str]) -> str:
     return ", ".join(every[:_SHOWN]) + more
 
 
-def _codes(table: ValueTable | None) -> tuple[Code, ...]:
-    return table.codes if table else ()
-
-
 def _by_value(table: ValueTable | None) -> dict[int, Code]:
-    return {code.value: code for code in _codes(table)}
+    return {code.value: code for code in table.codes} if table else {}
 
 
 def _differences(pairing: Pairing, codes: CodesPair) -> dict[int, Difference]:

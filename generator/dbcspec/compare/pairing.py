@@ -17,7 +17,7 @@ from operator import attrgetter
 from dbcspec.compare.languages import Languages
 from dbcspec.compare.matching import is_reordered, matched, roles
 from typedcan.model.layout import bits
-from typedcan.model.protocol import Bus, Message, Node, Protocol, Signal, ValueTable
+from typedcan.model.protocol import Bus, Code, Message, Node, Protocol, Signal, ValueTable
 
 _FEWEST_RENAMED = 5
 """Signals with other names that make another spelling of a protocol, not an edit of it."""
@@ -80,6 +80,21 @@ class Pairing:
     def signals(self) -> tuple[SignalPair, ...]:
         """Every signal that is in both and differs in anything."""
         return tuple(signal for message in self.messages for signal in message.signals)
+
+    @cached_property
+    def signals_by_tables(self) -> tuple[tuple[SignalPair, ...], ...]:
+        """Signals whose codes differ, those together that have the same two value tables."""
+        users: dict[tuple[ValueTable | None, ValueTable | None], list[SignalPair]] = {}
+        same: dict[tuple[int, int], bool] = {}
+        for signal in self.signals:
+            old, new = signal.old.value_table, signal.new.value_table
+            if old is not new:
+                key = id(old), id(new)
+                if key not in same:
+                    same[key] = _codes(old) == _codes(new)
+                if not same[key]:
+                    users.setdefault((old, new), []).append(signal)
+        return tuple(map(tuple, users.values()))
 
     @cached_property
     def languages(self) -> Languages:
@@ -177,6 +192,10 @@ def pair(old: Protocol, new: Protocol, *, by_place: bool | None = None) -> Pairi
         added_buses=added_buses,
         by_place=by_place,
     )
+
+
+def _codes(table: ValueTable | None) -> tuple[Code, ...]:
+    return table.codes if table else ()
 
 
 def _most_are_renamed(messages: Iterable[tuple[Message, Message]]) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dbcspec.compare import (
+    attribute_definition_same,
+    attribute_same,
     bus_added,
     bus_bit_rate_same,
     bus_name_same,
@@ -16,6 +18,7 @@ from dbcspec.compare import (
     code_present,
     comment_same,
     enum_member_name_same,
+    environment_variable_same,
     erratum_same,
     field_name_same,
     frame_format_same,
@@ -44,6 +47,7 @@ from dbcspec.compare import (
     signal_bits_free,
     signal_byte_order_same,
     signal_float_same,
+    signal_group_same,
     signal_invalid_code_same,
     signal_length_same,
     signal_multiplexing_same,
@@ -114,6 +118,9 @@ PROMISES: tuple[Promise, ...] = (
     enum_member_name_same.PROMISE,
     value_table_name_same.PROMISE,
     field_name_same.PROMISE,
+    signal_group_same.PROMISE,
+    attribute_same.PROMISE,
+    environment_variable_same.PROMISE,
     message_added.PROMISE,
     signal_added.PROMISE,
     signal_range_not_widened.PROMISE,
@@ -125,5 +132,6 @@ PROMISES: tuple[Promise, ...] = (
     erratum_same.PROMISE,
     code_label_same.PROMISE,
     order_same.PROMISE,
+    attribute_definition_same.PROMISE,
 )
 """Every promise of a protocol."""
