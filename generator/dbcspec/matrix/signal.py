@@ -54,6 +54,14 @@ class SharedTables:
         return tuple(self._by_name.values())
 
 
+def _labelled_alike(table: ValueTable | None, code: int | None) -> tuple[int, ...]:
+    """The other codes with the label of this one."""
+    labels = table.labels(english=False) if table else {}
+    if code not in labels:
+        return ()
+    return tuple(each for each, label in labels.items() if each != code and label == labels[code])
+
+
 @dataclass(slots=True)
 class SignalDraft:
     """A signal's row, and the rows below it that go on with its codes."""
@@ -87,6 +95,7 @@ class SignalDraft:
         byte_order, start = self._place(length)
         acting = acting_of(row, length=length, signed=signed)
         initial = usual_start(None, acting) if raw["initial"] is None else raw["initial"]
+        table = tables.of(name, row.name("value_table"), self._codes(length, signed=signed))
         return Signal(
             name=name,
             title=row.text("title"),
@@ -101,10 +110,9 @@ class SignalDraft:
             minimum=given.limit(row, "minimum", least, 0),
             maximum=given.limit(row, "maximum", most, 1),
             unit=row.text("unit"),
-            value_table=tables.of(
-                name, row.name("value_table"), self._codes(length, signed=signed)
-            ),
+            value_table=table,
             invalid_code=raw["invalid"],
+            other_invalid_codes=_labelled_alike(table, raw["invalid"]),
             abnormal_code=raw["abnormal"],
             start_value=initial,
             acting=acting,

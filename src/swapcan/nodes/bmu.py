@@ -50,6 +50,7 @@ from swapcan.plant.sensors import (
 from swapcan.transfer import Vin
 from swapcan.wire import codec_for
 from typedcan.model.signal_state import SignalState
+from typedcan.model.transfer import Pace
 from typedcan.model.transfers.readings import ReadingsByGroup
 from typedcan.node.clock import Clock, SystemClock
 from typedcan.spoken.codec import words_of
@@ -197,7 +198,8 @@ class Bmu(Participant):
 
         every = kind.PERIOD or 0.0
         # Where the spec says that a cycle takes longer than a period, one frame goes out in each.
-        one_a_period = (transfer.parts.transfer.period or 0) / 1000 > every
+        facts = transfer.parts.transfer
+        one_a_period = facts.pace is Pace.ONE_A_PERIOD or (facts.period or 0) / 1000 > every
         self.supply(kind, make, period=every * len(make()) if one_a_period else None)
 
     def _make(self, make: Callable[[PackStatus], Iterable[Message]]) -> Iterable[Message]:
