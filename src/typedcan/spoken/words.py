@@ -208,6 +208,10 @@ def _saying(
     needed = [field for field in theirs.values() if _defaults(edition)[field.name] is MISSING]
     # What stands for no value would act.
     given = {field.name: field.acting.safe for field in needed if field.acting}
+    # What is filled in for the program may be a signal like others in the edition.
+    may_lack = {*edition.SELECTED} | {
+        field.name for field in edition.FIELDS.values() if isinstance(field, FilledField)
+    }
     make: Any = edition
 
     def say(message: Message) -> Message:
@@ -215,7 +219,7 @@ def _saying(
         for mine, their, convert in parts:
             value = getattr(message, mine)
             said = None if value is None else convert(value)
-            if their:
+            if their and (said is not None or their in may_lack):
                 values[their] = said
         made: Message = make(**values)
         return made

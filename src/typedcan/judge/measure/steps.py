@@ -21,6 +21,7 @@ from typedcan.judge.measure.presence import Presences, Silence, Start
 from typedcan.judge.measure.spread import Spread, spread_of
 from typedcan.judge.series import Series
 from typedcan.judge.tolerance import ASKED_ANEW, Limits
+from typedcan.model.transfer import Pace
 from typedcan.wire.message import Message
 from typedcan.wire.protocol import FieldRef, Protocol
 
@@ -32,11 +33,15 @@ _KEY_BITS = 8
 
 
 def keyed(protocol: Protocol) -> dict[type[Message], tuple[str, str]]:
-    """Messages of several frames a cycle: the fields of the group and of the frame number."""
+    """Messages of several frames a cycle: the fields of the group and of the frame number.
+
+    Where one frame comes in a period, whichever it is, each is one cycle.
+    """
     return {
         transfer.messages[0]: (transfer.group.field, transfer.frame_number.field)
         for transfer in protocol.transfers
         if transfer.group and transfer.frame_number
+        if transfer.parts.transfer.pace is Pace.ALL_IN_PERIOD
         if all(_is_byte(ref) for ref in (transfer.group, transfer.frame_number))
     }
 
