@@ -27,8 +27,8 @@ ALIKE = frozenset({"E27", "E34", "E40", "E47", "E51", "E53", "E54"})
 """Errata whose readings no frame tells apart: an open checksum and what fills up are never wrong, a
 scale, a bus, and codes that are not sent do not show."""
 
-UNFILLED = frozenset({"invalid-lasting"})
-"""What only an edition has is sent with its start values, which are invalid."""
+UNFILLED = frozenset({"invalid-lasting", "code-reserved"})
+"""What only an edition has is sent with its start values, which are invalid or reserved."""
 
 
 @cache
@@ -67,6 +67,7 @@ def told(name: str, by: str) -> dict[str, int]:
                 word = type(outcome).__name__
                 told[word] = told.get(word, 0) + 1
     counts = receiver.counts
+    told |= {f"{of} {name}": 1 for of, names in transfers.readings.items() for name in names}
     return told | {"foreign": counts.foreign, "faults": counts.faults}
 
 
