@@ -29,8 +29,9 @@ _LONGEST_STATEMENT = 10_000
 _LONGEST_LINE = 1 << 22
 _LONGEST_TEXT = 1 << 20
 _MOST_MESSAGES = 50_000
-_MOST_SELECTORS = 1 << 15
-"""And as many more as the file has characters."""
+_MOST_SELECTORS = 1 << 13
+_SELECTORS_OF_A_LETTER = 8
+"""A long file may have so many more: eight for each of its characters."""
 
 _MOST_DIGITS = 9
 
@@ -150,7 +151,7 @@ class DbcText:
     def _refuse_endless_selectors(self) -> None:
         """A range such as 0-4294967295 is a list of so many numbers to cantools."""
         total = 0
-        most = _MOST_SELECTORS + len(self._text)
+        most = _MOST_SELECTORS + _SELECTORS_OF_A_LETTER * len(self._text)
         for statement in _SELECTORS.finditer(self._bare):
             for low, high in _RANGE.findall(statement[0]):
                 total += int(high) - int(low)
