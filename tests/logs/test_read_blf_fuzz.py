@@ -47,6 +47,10 @@ def objects(draw: st.DrawFn) -> bytes:
     if kind == CAN_FD_MESSAGE_64:
         body[2] %= 65  # no frame has more bytes
         body[35] = 0  # nothing behind the payload
+        body[34] %= 2  # no transmit requests, which python-can takes for frames
+        body[12] &= 0x7F
+    elif kind not in (CAN_ERROR_EXT, 65):
+        body[2] &= 0xFD
     return blf_object(
         kind,
         bytes(body),

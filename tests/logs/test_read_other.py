@@ -114,10 +114,60 @@ def test_an_unknown_suffix_is_refused_with_those_that_are_known(tmp_path: Path) 
         assert suffix in text
 
 
-@pytest.mark.parametrize("name", ["bus.blf.gz", "bus.mf4.gz", "bus.gz"])
-def test_a_packed_log_that_is_no_text_is_refused(tmp_path: Path, name: str) -> None:
-    (tmp_path / name).write_bytes(b"")
-    assert "unpack it first" in refusal(tmp_path / name)
+@pytest.mark.parametrize("suffix", [".blf", ".db", pytest.param(".mf4", marks=NEEDS_ASAMMDF)])
+def test_a_packed_log_that_is_no_text_is_read(tmp_path: Path, suffix: str) -> None:
+    plain = write_log(tmp_path / f"bus{suffix}", mixed_frames(250, kinds="classic"))
+    rows = rows_by_python_can(plain)
+    path = tmp_path / f"bus{suffix}.gz"
+    path.write_bytes(gzip.compress(plain.read_bytes()))
+    with open_log(path) as source:
+        assert rows_in(source) == rows
+        assert source.damage is None
+        assert source.position == source.size == path.stat().st_size
+
+
+def test_a_packed_log_that_is_cut_off_gives_the_frames_before(tmp_path: Path) -> None:
+    plain = write_log(tmp_path / "bus.blf", mixed_frames(5000, kinds="classic"))
+    rows = rows_by_python_can(plain)
+    path = tmp_path / "bus.blf.gz"
+    path.write_bytes(gzip.compress(plain.read_bytes())[: plain.stat().st_size // 2])
+    with open_log(path) as source:
+        found = rows_in(source)
+        assert 0 < len(found) < len(rows)
+        assert found == rows[: len(found)]
+        assert source.damage is not None
+        assert source.damage.path == path
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"MDF     3.30    TGT 12.0", "an MDF 3 file"),
+        (b"PK\x03\x04\x14\x00\x06\x00", "a ZIP archive or a workbook"),
+        (b'VERSION ""\n\nNS_ :\n\nBU_: A B\n', "a DBC database"),
+        (b'<?xml version="1.0"?>\n<log/>', "an XML file"),
+        (b'{"frames": []}', "a JSON file"),
+        (b"\xa1\xb2\xc3\xd4\x00\x02\x00\x04" + bytes(15) + b"\x01", "another network than CAN"),
+    ],
+)
+@pytest.mark.parametrize("suffix", [".asc", ".log", ".mdf", ""])
+def test_what_is_no_log_that_is_read_is_named(
+    tmp_path: Path, content: bytes, said: str, suffix: str
+) -> None:
+    path = tmp_path / f"bus{suffix}"
+    path.write_bytes(content)
+    assert said in refusal(path)
+
+
+@pytest.mark.parametrize("suffix", [".asc", ".blf", ".csv", ".db", ".log", ".trc"])
+@pytest.mark.parametrize("other", [".txt", "", ".dat", ".log"])
+def test_a_log_is_known_by_what_it_holds(tmp_path: Path, suffix: str, other: str) -> None:
+    plain = write_log(tmp_path / f"bus{suffix}", mixed_frames(50, kinds="classic"))
+    rows = rows_by_python_can(plain)
+    path = tmp_path / f"renamed{other}"
+    path.write_bytes(plain.read_bytes())
+    with open_log(path) as source:
+        assert rows_in(source) == rows
 
 
 def test_without_asammdf_an_mf4_log_says_what_to_install(

@@ -27,6 +27,7 @@ _DIRECTIONS = {"rx": 0, "tx": SENT}
 _REQUESTS = "transmit requests"
 _EVENTS = "events"
 _FLAG_REMOTE = 0x10
+_FLAG_REQUEST = 0x80
 _FLAG_FD = 0x1000
 
 
@@ -102,8 +103,10 @@ class AscLines:
         dlc = int(rest[2], 16)
         data = joined_bytes(rest[4 : 4 + length], self.base)
         said = int(rest[6 + length], 16) if len(rest) > 6 + length else None
+        if said is not None and said & _FLAG_REQUEST:
+            return Other(_REQUESTS, time)
         is_remote = bool(said & _FLAG_REMOTE) if said is not None else dlc > 0 == length
-        is_fd = said is None or bool(said & _FLAG_FD)
+        is_fd = said is None or bool(said & _FLAG_FD) or length > 8 or "1" in rest[:2]
         flags |= extended | FD * is_fd | REMOTE * is_remote
         flags |= BIT_RATE_SWITCH * (rest[0] == "1") | ERROR_STATE * (rest[1] == "1")
         if is_remote:

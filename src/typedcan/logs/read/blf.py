@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import struct
+from collections import Counter
 from collections.abc import Iterator
+from datetime import datetime
 from pathlib import Path
-from typing import cast
-
-from can.io.blf import TSystemTime, systemtime_to_timestamp
 
 from typedcan.logs.frames import FrameBlock
 from typedcan.logs.read.blf_containers import BrokenLog, batches, containers
 from typedcan.logs.read.blf_stream import ObjectStream
 from typedcan.logs.read.blocks import reblock
-from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogSource
+from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogSource, Start
 
-_HEADER = struct.Struct("<4sL8xQ16x8H16x")  # signature, header size, file size, start
+_HEADER = struct.Struct("<4sL8sQ16x8H16x")  # signature, header size, writer, file size, start
+_PYTHON_CAN = bytes([5, 0, 0, 0, 2, 6, 8, 1])
+"""What it says about itself: it writes UTC, others the clock of the recorder."""
+
+_1970 = datetime(1970, 1, 1)
 _BATCH = 2**19
 """Bytes that are looked through together: few calls for each, and they stay in the cache."""
 
@@ -43,6 +46,12 @@ class BlfSource(LogSource):
         self._file = path.open("rb")
         self._size = path.stat().st_size
         self._position = 0
+        self._passed: Counter[str] = Counter()
+
+    @property
+    def passed(self) -> Counter[str]:
+        """What in the file is no frame on the bus, by kind."""
+        return self._passed
 
     @property
     def size(self) -> int:
@@ -63,13 +72,15 @@ class BlfSource(LogSource):
         return reblock(self._frames(), self._block_size)
 
     def _frames(self) -> Iterator[FrameBlock]:
-        header_size, expected, start = self._header()
+        header_size, expected = self._header()
         if not header_size:
             problem = "this is not the header of a BLF file"
             self.damage = Damage(self.path, "byte 0", problem, f"{self._size:,} bytes")
             return
         self._file.seek(header_size)
-        objects = ObjectStream(start)
+        seconds = (self.start.wall - _1970).total_seconds() if self.start else 0.0
+        objects = ObjectStream(seconds)
+        self._passed = objects.passed
         try:
             for batch in batches(containers(self._file, self._size), _BATCH):
                 self._position = batch[-1].end
@@ -81,13 +92,24 @@ class BlfSource(LogSource):
         else:
             self._position = self._size
 
-    def _header(self) -> tuple[int, int, float]:
-        """Size of the header (0 if there is none), of the file it says, and the log's start."""
+    def _header(self) -> tuple[int, int]:
+        """Size of the header (0 if there is none), and of the file as it says."""
         header = self._file.read(_HEADER.size)
         if len(header) < _HEADER.size or not header.startswith(b"LOGG"):
-            return 0, 0, 0.0
-        _, header_size, file_size, *start = _HEADER.unpack(header)
+            return 0, 0
+        _, header_size, writer, file_size, *start = _HEADER.unpack(header)
         if header_size > self._size:
-            return 0, 0, 0.0
-        time = systemtime_to_timestamp(cast("TSystemTime", tuple(start)))
-        return max(header_size, _HEADER.size), file_size, time
+            return 0, 0
+        wall = _date(start)
+        if wall is not None:
+            self.start = Start(wall, is_utc=writer == _PYTHON_CAN, counted=False)
+        return max(header_size, _HEADER.size), file_size
+
+
+def _date(words: list[int]) -> datetime | None:
+    """Year, month, day of the week, day, hour, minute, second and millisecond; None if it lacks."""
+    year, month, _, day, hour, minute, second, millis = words
+    try:
+        return datetime(year, month, day, hour, minute, second, 1000 * millis)
+    except ValueError:
+        return None

@@ -7,14 +7,39 @@ from dataclasses import dataclass
 import numpy as np
 
 CAN_MESSAGE = 1
+CAN_ERROR = 2
 CAN_ERROR_EXT = 73
 CAN_MESSAGE2 = 86
 CAN_FD_MESSAGE = 100
 CAN_FD_MESSAGE_64 = 101
+CAN_FD_ERROR_64 = 104
 
 FRAME_TYPES = frozenset(
-    {CAN_MESSAGE, CAN_ERROR_EXT, CAN_MESSAGE2, CAN_FD_MESSAGE, CAN_FD_MESSAGE_64}
+    {
+        CAN_MESSAGE,
+        CAN_ERROR,
+        CAN_ERROR_EXT,
+        CAN_MESSAGE2,
+        CAN_FD_MESSAGE,
+        CAN_FD_MESSAGE_64,
+        CAN_FD_ERROR_64,
+    }
 )
+
+_KINDS = {
+    3: "overload frames",
+    4: "statistics",
+    31: "errors of the interface",
+    32: "events",
+    92: "comments",
+    96: "markers",
+}
+
+
+def kind_of(type_: int) -> str:
+    """What objects of a type that is no frame are, for people."""
+    return _KINDS.get(type_, "objects of other kinds")
+
 
 HEADER_SIZES = {1: 32, 2: 40}
 """Bytes before an object's body, by the version of its header."""
@@ -37,6 +62,7 @@ _CLASSIC = {
 _BODIES: dict[int, dict[str, tuple[str, int]]] = {
     CAN_MESSAGE: _CLASSIC,
     CAN_MESSAGE2: _CLASSIC,
+    CAN_ERROR: {"channel": ("<u2", 0)},
     CAN_ERROR_EXT: {
         "channel": ("<u2", 0),
         "dlc": ("u1", 10),
@@ -61,6 +87,14 @@ _BODIES: dict[int, dict[str, tuple[str, int]]] = {
         "direction": ("u1", 34),
         "extra": ("u1", 35),
         "checksum": ("<u4", 36),
+    },
+    CAN_FD_ERROR_64: {
+        "channel": ("u1", 0),
+        "dlc": ("u1", 1),
+        "valid": ("u1", 2),
+        "extra": ("u1", 10),
+        "id": ("<u4", 12),
+        "last": ("<u2", 42),
     },
 }
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,11 +12,15 @@ from numpy.typing import NDArray
 
 from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.read.blf_layouts import (
+    CAN_ERROR,
     CAN_ERROR_EXT,
+    CAN_FD_ERROR_64,
     CAN_FD_MESSAGE,
     CAN_FD_MESSAGE_64,
+    FRAME_TYPES,
     LAYOUTS,
     Layout,
+    kind_of,
 )
 from typedcan.logs.read.blf_scan import records
 from typedcan.logs.read.blocks import NARROW, WIDE, Channels, clear_beyond, joined, rows_of
@@ -35,6 +41,13 @@ _EXACT = 2**53  # whole numbers up to it are exact as float64
 _FD_LENGTHS = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, *[64] * 241], np.uint8)
 """Bytes by DLC."""
 
+_LONG = {CAN_FD_MESSAGE_64: 40, CAN_FD_ERROR_64: 44}
+"""Bytes of the body before a payload of any length."""
+
+_NO_REMOTE, _REQUEST = 0x7F, 2
+_REQUESTED = 0x80
+"""What says that an object is no frame on the bus, but a request to send one."""
+
 _Bits = tuple[tuple[int, FrameFlag], ...]
 _CLASSIC: _Bits = ((0x80, FrameFlag.REMOTE), (0x01, FrameFlag.SENT))
 _FD: _Bits = (
@@ -51,7 +64,11 @@ _FD_64: _Bits = (
 
 
 def frames(
-    data: bytes, starts: NDArray[np.int64], start_time: float, channels: Channels
+    data: bytes,
+    starts: NDArray[np.int64],
+    start_time: float,
+    channels: Channels,
+    passed: Counter[str],
 ) -> tuple[FrameBlock | None, int]:
     """The frames among the objects that begin at ``starts``, in their order.
 
@@ -65,6 +82,8 @@ def frames(
         Added to the times of the objects, in seconds.
     channels
         The log's channels, continued here.
+    passed
+        Counts what is no frame on the bus.
 
     Returns
     -------
@@ -80,13 +99,50 @@ def frames(
         places.append((layout, at))
         short = at[sizes[at] < layout.record.itemsize]
         understood = min([understood, *short[:1].tolist()])
-    places = [(layout, at[at < understood]) for layout, at in places]
-    places = [(layout, at) for layout, at in places if len(at)]
-    blocks = [_block(layout, data, starts[at], start_time, channels) for layout, at in places]
-    if len(blocks) < 2:
-        return blocks[0] if blocks else None, understood
-    order = np.argsort(np.concatenate([at for _, at in places]), kind="stable")
-    return rows_of(joined(blocks), order), understood
+    _count_others(base["type"][:understood], passed)
+    found = []
+    for layout, at in places:
+        rows, objects = _sent_or_received(layout, data, starts, at[at < understood], passed)
+        if len(rows):
+            found.append((rows, _block(layout, data, starts[rows], objects, channels)))
+    if not found:
+        return None, understood
+    block = found[0][1]
+    if len(found) > 1:
+        order = np.argsort(np.concatenate([rows for rows, _ in found]), kind="stable")
+        block = rows_of(joined([each for _, each in found]), order)
+    return replace(block, timestamp=block.timestamp + start_time), understood
+
+
+def _count_others(types: NDArray[np.uint32], passed: Counter[str]) -> None:
+    if len(types) and (types == types[0]).all():
+        types, counts = types[:1], np.array([len(types)])
+    else:
+        types, counts = np.unique(types, return_counts=True)
+    for kind, count in zip(types.tolist(), counts.tolist(), strict=True):
+        if kind not in FRAME_TYPES:
+            passed[kind_of(kind)] += count
+
+
+def _sent_or_received(
+    layout: Layout,
+    data: bytes,
+    starts: NDArray[np.int64],
+    rows: NDArray[np.int64],
+    passed: Counter[str],
+) -> tuple[NDArray[np.int64], NDArray[np.void]]:
+    """Which objects of a layout are frames on the bus, and them: not requests to send one."""
+    objects = records(data, starts[rows], layout.record)
+    if layout.kind == CAN_FD_MESSAGE_64:
+        requests = (objects["direction"] == _REQUEST) | (objects["fd_flags"] & _REQUESTED != 0)
+    elif layout.kind in (CAN_ERROR, CAN_ERROR_EXT, CAN_FD_ERROR_64):
+        return rows, objects
+    else:
+        requests = objects["flags"] & _NO_REMOTE == _REQUEST
+    if not requests.any():
+        return rows, objects
+    passed["transmit requests"] += int(np.count_nonzero(requests))
+    return rows[~requests], objects[~requests]
 
 
 def _by_layout(base: NDArray[np.void]) -> Iterator[tuple[Layout, NDArray[np.int64]]]:
@@ -103,33 +159,40 @@ def _block(
     layout: Layout,
     data: bytes,
     starts: NDArray[np.int64],
-    start_time: float,
+    objects: NDArray[np.void],
     channels: Channels,
 ) -> FrameBlock:
-    objects = records(data, starts, layout.record)
+    """The frames of objects, their times since the start of the log."""
+    channel = channels.indices(objects["channel"].astype(np.int32) - 1)
+    time = _seconds(objects)
+    if layout.kind == CAN_ERROR:
+        count = len(objects)
+        flags = np.full(count, FrameFlag.ERROR | FrameFlag.EXTENDED, np.uint8)
+        nothing, payload = np.zeros(count, np.uint8), np.zeros((count, NARROW), np.uint8)
+        no_id = np.zeros(count, np.uint32)
+        return FrameBlock(time, no_id, flags, channel, nothing, payload, channels.known)
+    flags = _flags_of(layout, objects)
+    if layout.kind in _LONG:
+        payload = _long_payload(layout, data, starts, objects)
+    else:
+        payload = np.ascontiguousarray(objects["data"])
+    length = _lengths(layout, objects, flags, payload)
+    frame_id = objects["id"] & np.uint32(_ID_MASK)
+    return FrameBlock(time, frame_id, flags, channel, length, payload, channels.known)
+
+
+def _flags_of(layout: Layout, objects: NDArray[np.void]) -> NDArray[np.uint8]:
     flags = np.where(objects["id"] & _EXTENDED_ID, np.uint8(FrameFlag.EXTENDED), np.uint8(0))
     if layout.kind == CAN_FD_MESSAGE_64:
         flags |= _flags(objects["fd_flags"], _FD_64)
         flags[objects["direction"] != 0] |= np.uint8(FrameFlag.SENT)
-        payload = _fd_64_payload(layout, data, starts, objects)
+    elif layout.kind in (CAN_ERROR_EXT, CAN_FD_ERROR_64):
+        flags |= np.uint8(FrameFlag.ERROR)
     else:
-        payload = np.ascontiguousarray(objects["data"])
-        if layout.kind == CAN_ERROR_EXT:
-            flags |= np.uint8(FrameFlag.ERROR)
-        else:
-            flags |= _flags(objects["flags"], _CLASSIC)
-        if layout.kind == CAN_FD_MESSAGE:
-            flags |= _flags(objects["fd_flags"], _FD)
-    length = _lengths(layout, objects, flags, payload)
-    return FrameBlock(
-        timestamp=_seconds(objects) + start_time,
-        frame_id=objects["id"] & np.uint32(_ID_MASK),
-        flags=flags,
-        channel=channels.indices(objects["channel"].astype(np.int32) - 1),
-        length=length,
-        data=payload,
-        channels=channels.known,
-    )
+        flags |= _flags(objects["flags"], _CLASSIC)
+    if layout.kind == CAN_FD_MESSAGE:
+        flags |= _flags(objects["fd_flags"], _FD)
+    return flags
 
 
 def _flags(field: NDArray[Any], bits: _Bits) -> NDArray[np.uint8]:
@@ -145,7 +208,7 @@ def _lengths(
     layout: Layout, objects: NDArray[np.void], flags: NDArray[np.uint8], payload: NDArray[np.uint8]
 ) -> NDArray[np.uint8]:
     """Bytes of payload; what is beyond them in ``payload`` is cleared, as for remote frames."""
-    fd = layout.kind in (CAN_FD_MESSAGE, CAN_FD_MESSAGE_64)
+    fd = layout.kind in (CAN_FD_MESSAGE, *_LONG)
     dlc: NDArray[np.uint8] = objects["dlc"]
     length = np.minimum(objects["valid"] if fd else dlc, np.uint8(WIDE if fd else NARROW))
     remote = (flags & FrameFlag.REMOTE) != 0
@@ -156,7 +219,7 @@ def _lengths(
     return np.where(remote, _FD_LENGTHS[dlc] if fd else dlc, length)
 
 
-def _fd_64_payload(
+def _long_payload(
     layout: Layout, data: bytes, starts: NDArray[np.int64], objects: NDArray[np.void]
 ) -> NDArray[np.uint8]:
     """Rows of 64 bytes, zero where an object has fewer than it says are valid."""
@@ -165,14 +228,10 @@ def _fd_64_payload(
     rows = payload.view(np.uint8).reshape(len(starts), WIDE)
     size = objects["size"].astype(np.int64)
     extra = objects["extra"].astype(np.int64)
-    fixed = objects["header_size"].astype(np.int64) + _FD_64_FIXED
+    fixed = objects["header_size"].astype(np.int64) + _LONG[layout.kind]
     held = np.where(extra, np.minimum(extra, size), size) - fixed
     clear_beyond(rows, np.clip(held, 0, WIDE).astype(np.uint8))
     return rows
-
-
-_FD_64_FIXED = 40
-"""Bytes of the body before the payload."""
 
 
 def _seconds(objects: NDArray[np.void]) -> NDArray[np.float64]:

@@ -18,6 +18,7 @@ MAX_FRAME_SIZE = 4096
 
 _SIZE = np.dtype({"names": ["size"], "formats": ["<u4"], "offsets": [8], "itemsize": BASE_SIZE})
 _WORD = int.from_bytes(SIGNATURE, "little")
+_ZEROS = 32  # at most so many behind the last object of all
 _PADDING = 4  # at most so many bytes between an object and the next
 
 
@@ -97,6 +98,9 @@ def _walk(data: bytes) -> Scan:
     while True:
         start = data.find(SIGNATURE, end, end + _PADDING + len(SIGNATURE))
         if start < 0 or start + BASE_SIZE > len(data):
+            rest = data[end : end + _ZEROS + 1]
+            if starts and len(rest) <= _ZEROS and not any(rest):
+                return found()  # some programs write more of them than there should be
             enough = len(data) - end >= BASE_SIZE + _PADDING
             return found("no object begins here" if enough else None)
         size = int.from_bytes(data[start + 8 : start + 12], "little")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from typedcan.logs.frames import FrameBlock
@@ -21,6 +22,8 @@ class ObjectStream:
     """
 
     def __init__(self, start_time: float) -> None:
+        self.passed: Counter[str] = Counter()
+        """What is no frame on the bus, by kind."""
         self._start_time = start_time
         self._channels = Channels()
         self._tail = b""
@@ -38,7 +41,9 @@ class ObjectStream:
             self._skip = max(-held - sum(len(piece.data) for piece in batch), 0)
         found = scan(data)
         try:
-            block, understood = frames(data, found.starts, self._start_time, self._channels)
+            block, understood = frames(
+                data, found.starts, self._start_time, self._channels, self.passed
+            )
         except ValueError as error:
             raise batch[0].broken(str(error)) from None
         if block is not None:

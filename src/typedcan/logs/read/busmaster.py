@@ -31,6 +31,7 @@ _DAY = 86_400.0
 _TIME = re.compile(r"(\d{1,6}):(\d{1,2}):(\d{1,2}):(\d{1,4})$")
 _MODE = re.compile(r"\*{3}(ABSOLUTE|RELATIVE|SYSTEM) MODE\*{3}")
 _BEGIN = re.compile(r"\*{3}START DATE AND TIME(.*)")
+_DATE = re.compile(r"(\d\d?):(\d\d?):(\d{4})\s+(\d\d?):(\d\d?):(\d\d?):(\d{1,3})(?!\d)")
 _FLAGS = {
     "s": 0,
     "x": EXTENDED,
@@ -83,7 +84,7 @@ class BusmasterFormat(TextFormat):
         elif line in ("***HEX***", "***DEC***"):
             self._base = 16 if "HEX" in line else 10
         elif begin := _BEGIN.match(line):
-            date = date_in(begin[1].encode(errors="surrogateescape"))
+            date = _date(begin[1])
             return Other("", begins=date) if date else COMMENT
         return COMMENT
 
@@ -118,6 +119,15 @@ class BusmasterFormat(TextFormat):
             time += _DAY
         self._last = time
         return time
+
+
+def _date(text: str) -> datetime | None:
+    """``30:6:2025 14:5:0:123``: day, month, year, and the time to milliseconds."""
+    found = _DATE.search(text)
+    if found is None:
+        return date_in(text.encode(errors="surrogateescape"))
+    day, month, year, hour, minute, second, millis = (int(each) for each in found.groups())
+    return datetime(year, month, day, hour, minute, second, 1000 * millis)
 
 
 def _midnight(date: datetime) -> datetime:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +22,10 @@ LONGEST_LINE = 65_536
 
 _SMALLEST_BUFFER = 4 * LONGEST_LINE
 _LARGEST_BUFFER = 1 << 22
+_PIECE = 1 << 18
 _LF, _CR = b"\n\r"
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_MARKS = (*_UTF_16, codecs.BOM_UTF8)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +77,13 @@ class TextLines:
     def __init__(self, path: Path, batch: int) -> None:
         self._file = path.open("rb", buffering=0)
         self.size = path.stat().st_size
-        compressed = self._file.read(len(GZIP)) == GZIP
+        head = self._file.read(len(codecs.BOM_UTF8))
         self._file.seek(0)
-        self._pieces = gunzip(self._file) if compressed else None
+        self._pieces = None
+        if head.startswith(GZIP):
+            self._pieces = as_utf_8(gunzip(self._file))
+        elif head.startswith(_MARKS):
+            self._pieces = as_utf_8(iter(partial(self._file.read, _PIECE), b""))
         self._piece = memoryview(b"")
         self._batch = batch
         self._capacity = min(max(64 * batch, _SMALLEST_BUFFER), _LARGEST_BUFFER)
@@ -176,3 +185,19 @@ class TextLines:
 
 def _after(ends: NDArray[np.int64]) -> int:
     return int(ends[-1]) + 1 if len(ends) else 0
+
+
+def as_utf_8(pieces: Iterator[bytes]) -> Iterator[bytes]:
+    """The same text without the mark that Windows puts before it, and as UTF-8 if it is UTF-16."""
+    first = next(pieces, b"")
+    while len(first) < len(codecs.BOM_UTF8) and (more := next(pieces, b"")):
+        first += more
+    if not first.startswith(_UTF_16):
+        yield first.removeprefix(codecs.BOM_UTF8)
+        yield from pieces
+        return
+    decoder = codecs.getincrementaldecoder("utf-16")(errors="replace")
+    yield decoder.decode(first).encode(errors="replace")
+    for piece in pieces:
+        yield decoder.decode(piece).encode(errors="replace")
+    yield decoder.decode(b"", final=True).encode(errors="replace")

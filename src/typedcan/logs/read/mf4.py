@@ -51,6 +51,7 @@ class Mf4Source(LogSource):
         path.open("rb").close()
         try:
             self._file = Mf4File(path)
+            self.start = self._file.start
         except DamagedMf4 as error:
             self._nothing(error)
 

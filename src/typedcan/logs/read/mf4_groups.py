@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from importlib import import_module
 from pathlib import Path
 from traceback import walk_tb
@@ -17,7 +18,7 @@ from typedcan.logs.frames import FrameBlock, FrameFlag
 from typedcan.logs.read.blocks import NARROW, WIDE, Channels, clear_beyond
 from typedcan.logs.read.mf4_stream import open_stream
 from typedcan.logs.read.silence import silenced
-from typedcan.logs.read.source import LogError
+from typedcan.logs.read.source import LogError, Start
 
 # asammdf has no types that a checker could use: what comes from it is Any, in this module alone
 
@@ -33,6 +34,8 @@ _FD_FLAGS = (
     ("BRS", FrameFlag.BIT_RATE_SWITCH),
     ("ESI", FrameFlag.ERROR_STATE),
 )
+
+_1970 = datetime(1970, 1, 1)
 
 
 class DamagedMf4(Exception):
@@ -88,7 +91,8 @@ class Mf4File:
         try:
             with _damage(), redirect_stdout(None):  # asammdf prints what it cannot finish
                 self._mdf: Any = asammdf.MDF(self._stream, process_bus_logging=False)
-                self._start: float = self._mdf.header.start_time.timestamp()
+                self.start = _start(self._mdf.header.start_time)
+                self._start = (self.start.wall - _1970).total_seconds()
         except DamagedMf4:
             self._stream.close()
             raise
@@ -113,6 +117,13 @@ class Mf4File:
             names = signal.samples.dtype.names or ()
             fields = {name.rpartition(".")[2]: signal.samples[name] for name in names}
             return _block(group.kind, fields, signal.timestamps + self._start, channels)
+
+
+def _start(began: datetime) -> Start:
+    """Asammdf leaves the zone out where the header says that it is the recorder's."""
+    is_utc = began.tzinfo is not None
+    wall = began.astimezone(UTC).replace(tzinfo=None) if is_utc else began
+    return Start(wall, is_utc=is_utc, counted=False)
 
 
 def _group(index: int, group: Any) -> Group | None:

@@ -29,6 +29,7 @@ from typedcan.logs.read.frame import (
 )
 from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogError, LogSource
 
+_SQLITE = b"SQLite format 3\0"
 _DAMAGE = (
     ArithmeticError,
     AttributeError,
@@ -69,7 +70,7 @@ class OtherSource(LogSource):
         self._count = 0
         self._reader: MessageReader | None = None
         try:
-            self._reader = can.LogReader(path)
+            self._reader = _reader(path)
         except _DAMAGE as error:
             if path.suffix.lower() not in can.io.MESSAGE_READERS:
                 known = ", ".join(sorted(can.io.MESSAGE_READERS))
@@ -121,6 +122,13 @@ class OtherSource(LogSource):
         where = f"frame {self._count + 1}"
         problem = " ".join(str(error).split()) or type(error).__name__
         self.damage = Damage(self.path, where, problem, "all frames from there on")
+
+
+def _reader(path: Path) -> MessageReader:
+    """python-can chooses by the suffix; a database may have any."""
+    with path.open("rb") as file:
+        is_database = file.read(len(_SQLITE)) == _SQLITE
+    return can.SqliteReader(path) if is_database else can.LogReader(path)
 
 
 def _block(frames: list[can.Message], channels: Channels) -> FrameBlock:
