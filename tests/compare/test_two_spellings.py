@@ -183,7 +183,8 @@ def test_the_command_says_that_it_matched_by_place(
 )
 def test_classic_can_against_can_fd_is_a_wire_finding(old: str, new: str, rule: str) -> None:
     before, after = (open_side(str(CASES / side)).protocol for side in (old, new))
-    (item,) = compare(before, after)
+    items = compare(before, after)
+    (item,) = items
     assert (item.rule, item.level, item.subject) == (rule, "wire", "FDMSG")
 
 

@@ -56,7 +56,9 @@ def test_a_hot_connector_warns_in_three_levels_and_cools_down_again(
     levels = [message.conctor_temp_warn for message in others.all(BSU_BMS_0)]
     assert sorted(set(levels)) == list(WarningLevel)
     assert levels == sorted(levels)
-    assert float(others.last(BSU_BMS_0).connector_temp) > 90.0
+    temperature = others.last(BSU_BMS_0).connector_temp
+    assert isinstance(temperature, float)
+    assert temperature > 90.0
     bsu.heal("connector_over_temperature")
     others.run(20.0)
     assert others.last(BSU_BMS_0).conctor_temp_warn == WarningLevel.INACTIVE
