@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from typedcan.databases.dbc import read_any, read_dbc
 from typedcan.databases.encoding import decode, find_encoding
+from typedcan.databases.sizes import refuse_large
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
 from typedcan.model.soundness import remarks
@@ -169,6 +170,25 @@ def test_a_cycle_time_of_a_sym_file_that_is_infinite_is_refused(tmp_path: Path) 
     path.write_text(f"{head}[M]\nID=001h\nLen=8\nCycleTime=1e400\nVar=s unsigned 0,8\n")
     with pytest.raises(ReadError, match=r"M: no cycle time is so long"):
         read_any(path)
+
+
+@pytest.mark.parametrize(("place", "refused"), [(32760, False), (32761, True)])
+@pytest.mark.parametrize(
+    ("suffix", "text"),
+    [
+        ("kcd", "<x>\n<Signal name='S' offset='{}' length='8'/></x>"),
+        ("arxml", "<x>\n<START-POSITION>{}</START-POSITION></x>"),
+        ("sym", "[M]\nVar=S unsigned {},8\n"),
+    ],
+)
+def test_the_largest_place_is_that_of_4095_bytes_and_what_is_beyond_has_its_line(
+    suffix: str, text: str, place: int, *, refused: bool
+) -> None:
+    if refused:
+        with pytest.raises(ReadError, match=r"^x:2:1: no message has so many bits: 32761$"):
+            refuse_large(text.format(place), suffix, "x")
+    else:
+        refuse_large(text.format(place), suffix, "x")
 
 
 def test_a_missing_file_and_a_folder_are_refused(tmp_path: Path) -> None:
