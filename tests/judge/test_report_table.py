@@ -24,7 +24,9 @@ def test_every_occurrence_is_a_row() -> None:
         ("answer-in-time", "must"),
         ("period-mean", "should"),
         ("spare-bits", "info"),
+        *[("never-seen", "must")] * 3,
     ]
+    assert [row["status"] for row in found[:4]] == ["failed", "failed", "failed", "noted"]
     assert found[0] == {
         "log": "drive.blf",
         "rule": "answer-in-time",
@@ -41,7 +43,15 @@ def test_every_occurrence_is_a_row() -> None:
         "frames": "3",
         "measure": "1",
         "text": "step of 0.25 s",
+        "status": "failed",
     }
+
+
+def test_a_rule_that_was_not_judged_is_a_row_with_its_reason() -> None:
+    (row,) = [each for each in rows(GOOD) if each["status"] == "not_judged"]
+    assert row["rule"] == "never-seen"
+    assert "nothing came that it could examine" in row["text"]
+    assert {row[name] for name in ("node", "start", "end", "order", "frames", "measure")} == {""}
 
 
 def test_a_log_without_dates_has_none() -> None:
@@ -51,7 +61,7 @@ def test_a_log_without_dates_has_none() -> None:
 
 def test_lines_end_alike_and_names_come_first() -> None:
     text = to_csv([GOOD], "en")
-    assert text.count("\n") == 1
+    assert text.count("\n") == 2
     assert "\r" not in text
     assert text.startswith("log,rule,severity,")
 

@@ -11,7 +11,8 @@ them an object:
 - ``rules``: ``id``, ``title``, ``purpose``, ``clause``, ``severity`` ("must", "should", "info";
   that of what was found, where it is less), ``errata`` that it rests on, ``judges``,
   ``tolerances`` (``name``, ``value`` in force, ``default``, ``unit``, ``text``),
-  ``status`` ("passed", "failed", "noted", "not_judged"), ``examined``, ``count``, ``frames``,
+  ``status`` ("passed", "failed", "noted", "not_judged"), ``reason`` (why it was not judged, else
+  empty), ``examined``, ``count``, ``frames``,
   ``worst`` (an occurrence or null), ``occurrences``: the first of them, by time;
 - ``periods``: ``message``, ``period``, ``frames``, ``mean``, ``deviation``, ``shortest``,
   ``longest`` in seconds, and ``spans`` of ``time``, ``low``, ``high``;
@@ -90,6 +91,7 @@ def _rule(judgement: Judgement, result: RuleResult, language: Language) -> dict[
         "judges": list(rule.judges),
         "tolerances": _tolerances(judgement, rule.tolerances, language),
         "status": result.status.name.lower(),
+        "reason": facts.reason(judgement, result, language),
         "examined": result.examined,
         "count": result.count,
         "frames": result.frames,

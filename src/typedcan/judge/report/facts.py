@@ -108,6 +108,17 @@ def other_worst(result: RuleResult) -> Occurrence | None:
     return None if same else worst
 
 
+def reason(judgement: Judgement, result: RuleResult, language: Language) -> str:
+    """Why a rule was not judged; empty where it was."""
+    if result.status is not Status.NOT_JUDGED:
+        return ""
+    own = judged_of(judgement, result.rule)
+    there = [node for node in own if node in judgement.seen]
+    text = words.NOTHING_TO_JUDGE if there else words.NOT_SEEN if own else words.NOT_ASKED_FOR
+    nodes = words.COMMA.within(language).join(own or result.rule.judges)
+    return printable(text.within(language).format(nodes=nodes))
+
+
 def by_status(judgement: Judgement, status: Status) -> str:
     """The ids of the rules with that status, in their order."""
     return ", ".join(result.rule.id for result in judgement.of_status(status))

@@ -46,7 +46,7 @@ def _suite(judgement: Judgement, language: Language, failing: Severity) -> ET.El
     for name, value in _properties(judgement, language):
         ET.SubElement(properties, "property", {"name": name, "value": printable(value)})
     cases = [_judged(judgement, language)]
-    cases += [_case(result, language, failing) for result in judgement.results]
+    cases += [_case(judgement, result, language, failing) for result in judgement.results]
     suite.extend(cases)
     counts = {
         "tests": len(cases),
@@ -87,15 +87,16 @@ def _judged(judgement: Judgement, language: Language) -> ET.Element:
     return case
 
 
-def _case(result: RuleResult, language: Language, failing: Severity) -> ET.Element:
+def _case(
+    judgement: Judgement, result: RuleResult, language: Language, failing: Severity
+) -> ET.Element:
     # Class and name say which test it is from one run to the next: nothing else is in them.
     severity = result.severity
     classname = f"swapcan.conform.{result.rule.severity.name.lower()}"
     case = ET.Element("testcase", {"classname": classname, "name": result.rule.id, "time": "0"})
     message = facts.cited(result.rule.title.within(language), result.rule, language)
     if result.status is Status.NOT_JUDGED:
-        text = words.NOTHING_TO_JUDGE.within(language)
-        ET.SubElement(case, "skipped", {"message": printable(text)})
+        ET.SubElement(case, "skipped", {"message": facts.reason(judgement, result, language)})
     elif result.count and severity >= failing:
         heading = f"{message}{words.COLON.within(language)}{facts.found(result, language)}"
         attributes = {"message": printable(heading), "type": severity.name.lower()}

@@ -1,4 +1,4 @@
-"""Occurrences as CSV, a row each, for spreadsheets."""
+"""Occurrences as CSV, a row each, and rules that were not judged, for spreadsheets."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ COLUMNS = (
     "frames",
     "measure",
     "text",
+    "status",
 )
 """The names in the first row; times are seconds since the log's begin."""
 
@@ -36,7 +37,9 @@ _FORMULA = ("=", "+", "-", "@")
 
 
 def to_csv(judgements: Sequence[Judgement], language: Language) -> str:
-    """The table: a row of names, then one per occurrence that is kept.
+    """The table: a row of names, then one per occurrence that is kept, or rule not judged.
+
+    The row of a rule that was not judged has the reason as its ``text``, and no place or time.
 
     ``start_utc`` is empty where the log's times are no dates. A text that a spreadsheet would
     take for a formula has an apostrophe before it.
@@ -60,7 +63,18 @@ def _rows(judgement: Judgement, result: RuleResult, language: Language) -> Itera
             *map(_cell, (*head, *found.subject)),
             *_figures(judgement.begin, found),
             _cell(facts.says(found, language)),
+            result.status.name.lower(),
         ]
+    if reason := facts.reason(judgement, result, language):
+        row = dict.fromkeys(COLUMNS, "") | {
+            "log": _cell(judgement.log),
+            "rule": _cell(rule.id),
+            "severity": rule.severity.name.lower(),
+            "clause": _cell(clause),
+            "text": _cell(reason),
+            "status": result.status.name.lower(),
+        }
+        yield list(row.values())
 
 
 def _figures(begin: float, found: Occurrence) -> list[str]:

@@ -133,11 +133,18 @@ class _Writer:
         ]
         text = f"{self._in(words.RULES)} {self._in(words.COMMA).join(counts)}"
         yield self._paint(f"  {text}", _FAINT)
-        if self._verbose:
-            for status in statuses:
-                if ids := facts.by_status(judgement, status):
-                    label = self._in(words.STATUSES[status])
-                    yield from self._wrapped(f"{label}{self._colon}{ids}", "    ", "      ")
+        if self._verbose and (ids := facts.by_status(judgement, Status.PASSED)):
+            label = self._in(words.STATUSES[Status.PASSED])
+            yield from self._wrapped(f"{label}{self._colon}{ids}", "    ", "      ")
+        reasons: dict[str, list[str]] = {}
+        for result in judgement.of_status(Status.NOT_JUDGED):
+            why = facts.reason(judgement, result, self._language)
+            reasons.setdefault(why, []).append(result.rule.id)
+        for why, rules in reasons.items():
+            text = self._in(words.NOT_JUDGED_AS).format(count=len(rules), reason=why)
+            if self._verbose:
+                text += f"{self._colon}{', '.join(rules)}"
+            yield from self._wrapped(text, "    ", "      ")
 
     def _wrapped(self, text: str, first: str, others: str) -> list[str]:
         return textwrap.wrap(

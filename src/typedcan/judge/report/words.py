@@ -81,9 +81,15 @@ UNHEEDED = Text("Recommendations that are not heeded", "未遵循的建议")
 NOTED = Text("Notes", "提示")
 PASSED = Text("Passed", "通过")
 NOT_JUDGED = Text("Not judged", "未判定")
-NOTHING_TO_JUDGE = Text(
-    "Nothing in the log that these rules could examine.", "日志中没有这些规则可检查的内容。"
+NOT_ASKED_FOR = Text(
+    "it is about {nodes}, not among the judged nodes", "仅判定 {nodes}，不在被判定节点之列"
 )
+NOT_SEEN = Text("no frame of {nodes}, which it judges", "日志中没有被判定节点 {nodes} 的报文")
+NOTHING_TO_JUDGE = Text(
+    "nothing came that it could examine: what it asks for had no occasion, or lacked a message",
+    "日志中没有可检查的内容：未出现相应情况，或缺少所需报文",
+)
+NOT_JUDGED_AS = Text("not judged, {count}: {reason}", "未判定 {count} 条：{reason}")
 
 RULE = Text("Rule", "规则")
 RULES = Text("Rules", "规则")

@@ -49,16 +49,13 @@ def rest_section(judgement: Judgement, language: Language) -> Markup:
         ]
         for status in (Status.PASSED, Status.NOT_JUDGED)
     )
-    why = words.NOTHING_TO_JUDGE.within(language)
     return lines(
         _group(words.PASSED, passed, "good", language),
-        _group(words.NOT_JUDGED, idle, "none", language, why),
+        _group(words.NOT_JUDGED, idle, "none", language),
     )
 
 
-def _group(
-    heading: Text, rules: Sequence[Markup], kind: str, language: Language, why: str = ""
-) -> Markup:
+def _group(heading: Text, rules: Sequence[Markup], kind: str, language: Language) -> Markup:
     """Some rules under a heading; nothing where there are none."""
     if not rules:
         return Markup("")
@@ -66,7 +63,6 @@ def _group(
     return element(
         "section",
         element("h3", heading.within(language), " ", size),
-        element("p", why, class_="help") if why else Markup(""),
         _headings(language),
         lines(*rules),
         class_=f"card rules {kind}",
@@ -89,7 +85,9 @@ def _rule(
     is_open: bool,
 ) -> Markup:
     rule = result.rule
+    reason = facts.reason(judgement, result, language)
     body = [
+        element("p", reason, class_="help") if reason else Markup(""),
         element("p", rule.purpose.within(language), class_="purpose"),
         _limits(judgement, result, language),
         _first_and_worst(result, moments, language),

@@ -49,6 +49,10 @@ class NodeAwake(Watcher):
         for node, own in silences.items():
             if node in self._may_sleep:
                 continue
+            if not any(
+                seen.seconds > self._limit for other, seen in end.nodes.items() if other != node
+            ):
+                continue  # nobody else is awake for so long
             self.findings.examine(node)
             for silence in own:
                 awake = [
