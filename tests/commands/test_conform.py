@@ -217,7 +217,8 @@ def test_reports_are_written_and_replaced(
         (str(spoilt), "1"),
     ]
     rows = list(csv.DictReader(table.read_text("utf-8").splitlines()))
-    assert [row["rule"] for row in rows] == ["checksum"] * 3
+    found = [row["rule"] for row in rows if row["status"] != "not_judged"]
+    assert found == ["checksum"] * 3
     assert table.read_bytes() != before
 
 

@@ -88,7 +88,7 @@ def _add_reports(parser: argparse.ArgumentParser) -> None:
     for name, text in (
         ("--html", "a page with plots, for people"),
         ("--junit", "JUnit XML, for CI servers"),
-        ("--csv", "a table with a row per finding"),
+        ("--csv", "a table with a row per finding, and per rule that was not judged"),
     ):
         completing_files(group.add_argument(name, type=Path, metavar="FILE", help=text))
     group.add_argument("--json", action="store_true", help="print JSON in place of the summary")
