@@ -13,6 +13,7 @@ HELP: Mapping[str, str] = {
     "send": "send one message; what is not given goes out as invalid, or 0 if that is idle",
     "listen": "print the messages on a bus as they arrive, until Ctrl-C",
     "monitor": "watch a bus in the terminal: messages, signals, and the pack at a glance",
+    "readings": "how the standard is read where it is open, and the editions to choose from",
     "simulate": "be nodes of the protocol on a bus: a truck, a pack, a charger that behave",
 }
 """What each command does, in a line, in the order of the help."""

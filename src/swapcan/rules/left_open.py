@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from typedcan.judge.findings import LeftOpen
 
-_BY_TURNS = (LeftOpen("B2V_Ucell", ("E55",)), LeftOpen("B2V_Temp", ("E45",)))
+_BY_TURNS = (LeftOpen("B2V_Ucell", ("E55",)), LeftOpen("B2V_Temp", ("E55",)))
 
 LEFT_OPEN: Mapping[str, tuple[LeftOpen, ...]] = {
     # No rule is printed for these checksums and counters.
