@@ -243,7 +243,7 @@ class _Readings:
             name for each in protocol.readings for name in (each.message, each.totals)
         )
         self._decoder = Decoder(protocol.messages, reserved=protocol.reserved, wanted=wanted)
-        self._columns = ReadingColumns(protocol.readings)
+        self._columns = ReadingColumns(protocol.readings, recognise=False)
 
     def cycles(
         self, block: FrameBlock, channels: Mapping[str, int | str | None]

@@ -178,6 +178,7 @@ def read_rows(
     for shape in shapes:
         _hand_on(shape.finish(), rows, summary)
         summary.add_problems(shape.problems)
+        summary.add_recognised(shape.recognised)
         summary.add_sources(shape.taken_together)
     summary.faults = checks.finish()
     summary.seconds = span.seconds

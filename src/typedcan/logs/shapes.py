@@ -41,6 +41,11 @@ class Shape(Interface):
         return {}
 
     @property
+    def recognised(self) -> Mapping[str, Counter[str]]:
+        """By table, how many rows came in which reading of the spec; after the end."""
+        return {}
+
+    @property
     def taken_together(self) -> Mapping[str, frozenset[int]]:
         """The source addresses of messages whose rows do not say from which they are."""
         return {}

@@ -56,6 +56,8 @@ class Summary:
         Signals whose column has another name, ``message.signal``, and that name.
     problems
         What was wrong with transfers, by their names, and how often.
+    recognised
+        By table, how many values of several frames came in which reading of the spec.
     taken_together
         The source addresses of messages, found by their PGN, in one column of a raster.
     spans
@@ -81,6 +83,7 @@ class Summary:
     problems: dict[str, Counter[ProblemKind]] = field(
         default_factory=dict[str, Counter[ProblemKind]]
     )
+    recognised: dict[str, Counter[str]] = field(default_factory=dict[str, Counter[str]])
     taken_together: dict[str, frozenset[int]] = field(default_factory=dict[str, frozenset[int]])
     spans: list[tuple[Path, float, float]] = field(default_factory=list[tuple[Path, float, float]])
     begun: list[str] = field(default_factory=list[str])
@@ -100,11 +103,17 @@ class Summary:
         self.in_several_frames = other.in_several_frames
         self.renamed |= other.renamed
         self.add_problems(other.problems)
+        self.add_recognised(other.recognised)
         self.add_sources(other.taken_together)
         self.spans += other.spans
         self.begun += other.begun
         self.outside = self.outside or other.outside
         self.passed.update(other.passed)
+
+    def add_recognised(self, found: Mapping[str, Counter[str]]) -> None:
+        """Add the readings in which values came."""
+        for name, used in found.items():
+            self.recognised.setdefault(name, Counter()).update(used)
 
     def add_sources(self, found: Mapping[str, frozenset[int]]) -> None:
         """Add the sources that are in one column."""
@@ -141,6 +150,8 @@ class Summary:
             yield f"in several frames, not decoded: {_names(self.in_several_frames)}"
         for name, column in self.renamed.items():
             yield f"{name} is in the column {column}"
+        for name, used in self.recognised.items():
+            yield f"{name} read as {_listed(used)}"
         for name, sources in self._mixed().items():
             yield f"{name} is sampled from several sources: {_names(sources)}"
         yield from self.begun[:_MOST]
@@ -200,6 +211,7 @@ class Summary:
             "hidden": self.hidden,
             "in_several_frames": list(self.in_several_frames),
             "renamed": self.renamed,
+            "recognised": {name: dict(used) for name, used in self.recognised.items()},
             "several_sources": self._mixed(),
             "begun": self.begun,
             "passed_over": dict(self.passed),

@@ -99,9 +99,10 @@ class Assembly:
         """The rows that the next cycle is made of so far, by key."""
         return self._cycle.pieces
 
-    def begin(self, shape: Shape, at: float) -> None:
-        """Begin anew with another shape, at that time."""
+    def begin(self, shape: Shape, at: float, window: float) -> None:
+        """Begin anew with another shape and window, at that time."""
         self.expire(at)
+        self._window = window
         self._cycle = Cycle(self._width, self._window, shape)
         self.forgotten = False
 

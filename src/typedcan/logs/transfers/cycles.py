@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import groupby
@@ -42,6 +43,8 @@ class CycleTable:
         Shape (n, k), NaN where there is none.
     state
         `typedcan.logs.columns.State` of each value, shape (n, k).
+    read_as
+        The readings of the spec in which they came, where it has several and frames tell.
     """
 
     name: str
@@ -51,6 +54,7 @@ class CycleTable:
     timestamp: NDArray[np.float64]
     values: NDArray[np.float64]
     state: NDArray[np.uint8]
+    read_as: tuple[str, ...] = ()
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -71,11 +75,21 @@ class ReadingColumns:
         What to put together.
     assume_seen
         Whether, as long as the log has no totals, a cycle has what was seen in the first seconds.
+    recognise
+        Whether to read the frames as they tell, where the spec has several readings; else as it
+        usually does.
     """
 
-    def __init__(self, readings: Iterable[Readings], *, assume_seen: bool = True) -> None:
+    def __init__(
+        self,
+        readings: Iterable[Readings],
+        *,
+        assume_seen: bool = True,
+        recognise: bool = True,
+    ) -> None:
         self._readings = tuple(readings)
         self._assume_seen = assume_seen
+        self._recognise = recognise
         self._streams: dict[tuple[str, Channel], Stream] = {}
         self._totals: dict[tuple[str, Channel], Totals] = {}
         self._end = -math.inf
@@ -122,10 +136,28 @@ class ReadingColumns:
             counts[name].add(stream.counts)
         return counts
 
+    @property
+    def recognised(self) -> dict[str, Counter[str]]:
+        """By name of the readings, the cycles that came in each reading of the spec."""
+        found: dict[str, Counter[str]] = {}
+        for (name, _), stream in self._streams.items():
+            found.setdefault(name, Counter()).update(stream.recognised.used)
+        return {name: used for name, used in found.items() if used}
+
+    @property
+    def mixtures(self) -> dict[str, int]:
+        """By name of the readings, how often cycles came in another reading than before."""
+        found: Counter[str] = Counter()
+        for (name, _), stream in self._streams.items():
+            found[name] += stream.recognised.mixtures
+        return dict(found)
+
     def _stream(self, readings: Readings, channel: Channel) -> Stream:
         key = readings.name, channel
         if key not in self._streams:
-            self._streams[key] = Stream(readings, assume_seen=self._assume_seen)
+            self._streams[key] = Stream(
+                readings, assume_seen=self._assume_seen, recognise=self._recognise
+            )
         return self._streams[key]
 
     def _changes(
@@ -171,7 +203,7 @@ class ReadingColumns:
             before = int(np.searchsorted(rows, row))
             cycles += stream.take(before - taken)
             taken = before
-            stream.set_totals(totals, at)
+            cycles += stream.set_totals(totals, at)
         return cycles + stream.take(len(rows) - taken)
 
     @staticmethod
@@ -186,6 +218,7 @@ class ReadingColumns:
                 each.timestamp,
                 each.values,
                 each.state,
+                each.read_as,
             )
             for each in cycles
         ]

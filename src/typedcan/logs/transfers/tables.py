@@ -83,7 +83,15 @@ class TransferTables(Shape):
         found = dict(self._problems)
         for name, counts in self.counts.items():
             found[self._readings[name]] = counts.problems()
+        for name, changes in self._columns.mixtures.items():
+            if changes:
+                found[self._readings[name]]["reading"] = changes
         return {name: kinds for name, kinds in found.items() if kinds.total()}
+
+    @property
+    def recognised(self) -> Mapping[str, Counter[str]]:
+        """By table, how many cycles came in which reading of the spec."""
+        return self._columns.recognised
 
     def take(self, decoded: DecodedBlock) -> Iterator[Batch]:
         """What is complete with the block; raises `ColumnsError`."""
@@ -178,13 +186,14 @@ def _most(parts: Parts) -> int:
 def cycle_schema(protocol: Protocol, table: CycleTable) -> pa.Schema:
     """Time, channel, and for each reading its value, null where there is none, and its state."""
     message = {"message": table.readings.message}
+    about = {**message, "read_as": ", ".join(table.read_as)} if table.read_as else message
     fields: list[pa.Field[Any]] = [TIMESTAMP, CHANNEL]
     for column, (group, number) in zip(table.columns, table.positions, strict=True):
         place = {**message, table.readings.word: str(group), "number": str(number)}
         value = {**place, "unit": table.readings.unit}
         fields.append(pa.field(column, pa.float64(), metadata=value))
         fields.append(pa.field(f"{column}.state", STATE_TYPE, metadata=place))
-    return pa.schema(fields, metadata_of(protocol, message))
+    return pa.schema(fields, metadata_of(protocol, about))
 
 
 def cycle_batch(table: CycleTable, schema: pa.Schema) -> pa.RecordBatch:

@@ -130,8 +130,13 @@ def _sink(target: Target, draft: Path, schemas: dict[str, pa.Schema]) -> Sink:
     if target.suffix == _MF4:
         return Mf4File(draft)
     if target.folder:
-        names = file_names(schemas)
-        return Files(_TABLES[target.suffix], lambda name: draft / f"{names[name]}{target.suffix}")
+        tables = dict.fromkeys(schemas)
+
+        def path_of(name: str) -> Path:
+            tables.setdefault(name)  # what some tables are called, their rows tell
+            return draft / f"{file_names(tables)[name]}{target.suffix}"
+
+        return Files(_TABLES[target.suffix], path_of)
     files = Files(_TABLES[target.suffix], lambda _: draft)
     for name, schema in schemas.items():
         files.open(name, schema)

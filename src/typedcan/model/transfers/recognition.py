@@ -29,15 +29,14 @@ _USUAL: Mapping[str, Enum] = {"numbering": Numbering.THROUGH, "pace": Pace.ALL_I
 SLOW = 0.75
 """Shares of a period from which on a step is one to the next period."""
 
-_STEPS = 4
-"""Slow steps that are needed to say that one frame comes in a period."""
+_FIRST: Mapping[Enum, int] = {Pace.ONE_A_PERIOD: 4, Numbering.THROUGH: 2}
+"""How often in a row it has to be said at first, where once may be chance."""
 
-_RARELY = 3
-"""Quick steps are so much rarer than slow ones where one frame comes in a period."""
+_PATIENCE = 512
+"""More frames are not waited for until it is known how to take them."""
 
-
-_DOUBT = 2
-"""What has to speak against a reading that was right before."""
+_AGAIN = 5
+"""How often in a row it has to be said otherwise than before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,67 +63,89 @@ class Candidate:
 
 
 @dataclass(slots=True)
+class Said:
+    """What frames say of one fact: the first word counts, another one where it is repeated.
+
+    Parameters
+    ----------
+    known
+        What is known; None as long as nothing is.
+    other, times
+        What was said otherwise since, and how often in a row.
+    """
+
+    known: Enum | None = None
+    other: Enum | None = None
+    times: int = 0
+
+    def hear(self, value: Enum) -> None:
+        """Take what a frame says."""
+        if value is self.known:
+            self.times = 0
+            return
+        self.times = self.times + 1 if value is self.other else 1
+        self.other = value
+        if self.times >= needed(value, self.known):
+            self.known, self.times = value, 0
+
+
+def needed(value: Enum, known: Enum | None) -> int:
+    """How often in a row something has to be said before it counts."""
+    if known is not None:
+        return _AGAIN
+    return _FIRST.get(value, 1)
+
+
 class Evidence:
     """What frames have told so far of the reading in which they are sent.
 
     Parameters
     ----------
-    through
-        How often numbers went on where the group stepped.
-    within
-        How often a group after the first had the first number.
-    slow, quick
-        How often a frame came about a period after the one before, and how often sooner.
+    differ
+        What is to be told, as `told_apart` has it.
+    slow
+        The step in seconds from which on it is one to the next period.
     """
 
-    through: int = 0
-    within: int = 0
-    slow: int = 0
-    quick: int = 0
+    def __init__(self, differ: frozenset[str], slow: float) -> None:
+        self.slow = slow
+        self.said = {key: Said() for key in sorted(differ)}
+        self.has_groups = False
+        """Whether frames of several groups were seen."""
+        self.frames = 0
+        """How many frames were seen."""
 
-    @classmethod
-    def of(cls, transfer: Transfer) -> Evidence:
-        """A little, for the reading that was right before."""
-        is_through = transfer.numbering is Numbering.THROUGH
-        is_slow = transfer.pace is Pace.ONE_A_PERIOD
-        return cls(
-            through=_DOUBT * is_through,
-            within=_DOUBT * (not is_through),
-            slow=_STEPS * is_slow,
-            quick=_DOUBT * (not is_slow),
-        )
-
-    def see(
-        self, last: tuple[int, int, float] | None, this: tuple[int, int, float], slow: float
-    ) -> None:
-        """Take a frame and the one before: group and number, both from 0, and the time.
-
-        ``slow`` is the step in seconds from which on it is one to the next period.
-        """
+    def see(self, last: tuple[int, int, float] | None, this: tuple[int, int, float]) -> None:
+        """Take a frame and the one before: group and number, both from 0, and the time."""
+        self.frames += 1
         group, number, at = this
-        if group > 0 and number == 0:
-            self.within += 1
-        if last is None or last[:2] == this[:2]:
-            return
-        if group == last[0] + 1 and number == last[1] + 1:
-            self.through += 1
-        if at - last[2] >= slow:
-            self.slow += 1
-        else:
-            self.quick += 1
+        numbers, pace = self.said.get("numbering"), self.said.get("pace")
+        if last is not None and last[0] != group:
+            self.has_groups = True
+        if numbers:
+            if group > 0 and number == 0:
+                numbers.hear(Numbering.WITHIN_GROUP)
+            elif last is not None and (group, number) == (last[0] + 1, last[1] + 1):
+                numbers.hear(Numbering.THROUGH)
+        if pace and last is not None and last[:2] != this[:2]:
+            is_slow = at - last[2] >= self.slow
+            pace.hear(Pace.ONE_A_PERIOD if is_slow else Pace.ALL_IN_PERIOD)
 
     @property
     def facts(self) -> dict[str, Enum]:
         """What is known of the transfer."""
-        found: dict[str, Enum] = {}
-        if self.through != self.within:
-            through = self.through > self.within
-            found["numbering"] = Numbering.THROUGH if through else Numbering.WITHIN_GROUP
-        if self.slow >= _STEPS and self.slow > _RARELY * self.quick:
-            found["pace"] = Pace.ONE_A_PERIOD
-        elif self.quick:
-            found["pace"] = Pace.ALL_IN_PERIOD
-        return found
+        return {key: each.known for key, each in self.said.items() if each.known is not None}
+
+    @property
+    def pending(self) -> frozenset[str]:
+        """What will soon be known of how to take what has come."""
+        if self.frames > _PATIENCE:
+            return frozenset()
+        return frozenset(
+            key
+            for key, each in self.said.items()
+            if each.known is None and (self.has_groups if key == "numbering" else each.times)
+        )
 
 
 def candidates_of(parts: Parts) -> tuple[Candidate, ...]:
