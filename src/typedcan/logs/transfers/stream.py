@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import groupby
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -288,17 +290,5 @@ def seen_shape(
 
 def _joined(complete: list[Complete]) -> list[Complete]:
     """Cycles of one layout that follow each other, as one."""
-    joined: list[Complete] = []
-    group: list[Complete] = []
-    for each in complete:
-        if group and group[0].counts != each.counts:
-            joined.append(_stacked(group))
-            group = []
-        group.append(each)
-    if group:
-        joined.append(_stacked(group))
-    return joined
-
-
-def _stacked(group: list[Complete]) -> Complete:
-    return Complete(group[0].counts, np.concatenate([each.rows for each in group]))
+    runs = groupby(complete, key=attrgetter("counts"))
+    return [Complete(counts, np.concatenate([each.rows for each in run])) for counts, run in runs]
