@@ -42,8 +42,15 @@ _SECONDS = Tolerance(
     ),
 )
 
-_CHARGER_COUNTS = 0.75
-"""s for which a frame of the charger counts: shorter than what is allowed, as it may be gone."""
+_CHARGER = Tolerance(
+    name="charge-current-sign.charger",
+    value=0.75,
+    unit="s",
+    text=Text(
+        "for which a frame of the charger counts: shorter than what is allowed, as it may be gone",
+        "充电机报文的有效时间:短于允许时间,因充电机可能已断开",
+    ),
+)
 
 _SUBJECT = Subject("BMU", "B2V_ST2", "B2V_ST2_Current")
 
@@ -60,13 +67,14 @@ class ChargeCurrentSign(LastingWatcher):
         super().__init__(findings)
         self._current, self._load = findings.limit(_CURRENT), findings.limit(_LOAD)
         self._drawn = math.nan  # A, before the pack charged
+        self._charger = findings.limit(_CHARGER)
         self._positive = self.lasting(_SUBJECT, findings.limit(_SECONDS), B2V_ST2)
 
     def feed(self, chunk: Chunk) -> None:
         """Judge the current while the pack charges."""
         series = chunk.sound(B2V_ST2)
         state = LastKnown(chunk.sound(B2V_ST1), series)
-        charger = LastKnown(chunk.sound(C2B_ACStatus), series, _CHARGER_COUNTS)
+        charger = LastKnown(chunk.sound(C2B_ACStatus), series, self._charger)
         current = series.value("current")
         given = np.where(charger.known, charger.value("current_output"), -1.0)
         can_draw = state.raw("bms") != BmsState.HV_OPEN
@@ -99,6 +107,6 @@ RULE = Rule(
     clause="Table 1 row 3 (5.1.1)",
     severity=Severity.MUST,
     judges=("BMU",),
-    tolerances=(_CURRENT, _LOAD, _SECONDS),
+    tolerances=(_CURRENT, _LOAD, _SECONDS, _CHARGER),
     watch=ChargeCurrentSign,
 )

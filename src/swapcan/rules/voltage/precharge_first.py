@@ -13,10 +13,19 @@ from typedcan.judge.measure.last_known import LastKnown, fresh_for
 from typedcan.judge.measure.since import Since, last
 from typedcan.judge.rule import Rule, Severity, Watcher
 from typedcan.judge.series import Series
+from typedcan.judge.tolerance import Tolerance
 from typedcan.report.language import Text
 
-_WATCHED = 0.5 - 1e-6
-"""s before the main positive relay closes for which the log has to show it open."""
+_WATCHED = Tolerance(
+    name="precharge-first.watched",
+    value=0.5,
+    unit="s",
+    text=Text(
+        "before the main positive relay closes for which the log has to show it open",
+        "主正继电器闭合前,日志中应显示其断开的时间",
+    ),
+)
+_ROUNDING = 1e-6  # s, of time stamps
 
 _SUBJECT = Subject("BMU", "B2V_ST0", "B2V_ST0_ST_MainPos")
 
@@ -32,6 +41,7 @@ class PrechargeFirst(Watcher):
 
     def __init__(self, findings: Findings) -> None:
         super().__init__(findings)
+        self._watched = findings.limit(_WATCHED) - _ROUNDING
         self._path = ChargePath()
         self._open = Since(fresh_for(B2V_ST0, findings))
         # Orders of the last frames, as floats; -1: none.
@@ -56,7 +66,7 @@ class PrechargeFirst(Watcher):
                 step = float(relays.time[row] - relays.time[row - 1])
                 if (
                     step > relays.lasts
-                    or seconds < _WATCHED
+                    or seconds < self._watched
                     or not shown[row]
                     or for_charging[row - 1]
                 ):
@@ -106,5 +116,6 @@ RULE = Rule(
     clause="5.2.1.1, Table 2 rows 1 and 3 (5.1.2)",
     severity=Severity.MUST,
     judges=("BMU",),
+    tolerances=(_WATCHED,),
     watch=PrechargeFirst,
 )

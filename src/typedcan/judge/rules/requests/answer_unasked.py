@@ -47,8 +47,11 @@ _ALWAYS = Tolerance(
         "应答帧数达到按周期应有帧数的该比例时,视为始终周期发送",
     ),
 )
-_SEVERAL = 3
-"""Frames that show a period."""
+_SEVERAL = Tolerance(
+    name="answer-unasked.frames",
+    value=3,
+    text=Text("Frames that it takes to show a period", "判断周期所需的最少帧数"),
+)
 
 _UNASKED = Text(
     "sent {ago:.3g} s after the last request of the {asker} ended, {limit:.3g} s are allowed",
@@ -117,12 +120,12 @@ class _Asking:
 
     def finish(self, end: LogEnd) -> None:
         """What came at its period for as long as its sender did was sent as it is printed."""
-        always = self._findings.limit(_ALWAYS)
+        always, several = self._findings.limit(_ALWAYS), self._findings.limit(_SEVERAL)
         for answer, found in self._found.items():
             if answer in end.messages and answer.PERIOD:
                 seconds = end.nodes[answer.SENDER].seconds
                 due = seconds / answer.PERIOD
-                if found.count and end.messages[answer].frames >= max(always * due, _SEVERAL):
+                if found.count and end.messages[answer].frames >= max(always * due, several):
                     continue
             self._findings.take(found)
 
@@ -192,6 +195,6 @@ def rule(protocol: Protocol) -> Rule:
         ),
         severity=Severity.SHOULD,
         judges=tuple(dict.fromkeys(request.answers[0].SENDER for request in protocol.requests)),
-        tolerances=(_SECONDS, _BEGIN, _ALWAYS),
+        tolerances=(_SECONDS, _BEGIN, _ALWAYS, _SEVERAL),
         watch=partial(AnswerUnasked, protocol=protocol),
     )
