@@ -10,6 +10,9 @@ from pathlib import Path
 
 from typedcan.logs.part import LogPart, TimeError, Window
 
+_RESOLUTION = 1e-3
+"""Seconds: dates in headers have milliseconds, so that parts may seem to overlap by one."""
+
 Part = tuple[Path, float]
 """A log, and the seconds that are added to its times."""
 
@@ -44,7 +47,7 @@ def check_order(spans: Sequence[tuple[Path, float, float]]) -> None:
     """Raise `TimeError` where a log begins before the one before it ends."""
     sound = [span for span in spans if not isnan(span[1])]
     for (before, _, last), (log, first, _) in pairwise(sound):
-        if first < last:
+        if first < last - _RESOLUTION:
             raise TimeError(
                 f"{log}: begins {last - first:.3f} s before {before.name} ends, so they are not"
                 " parts of one drive in this order: convert them apart"

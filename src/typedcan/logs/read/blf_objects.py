@@ -102,9 +102,14 @@ def frames(
     _count_others(base["type"][:understood], passed)
     found = []
     for layout, at in places:
-        rows, objects = _sent_or_received(layout, data, starts, at[at < understood], passed)
-        if len(rows):
-            found.append((rows, _block(layout, data, starts[rows], objects, channels)))
+        kept = at if understood == len(starts) else at[at < understood]
+        begins = starts if len(kept) == len(starts) else starts[kept]
+        objects = records(data, begins, layout.record)
+        if (on_bus := _on_bus(layout, objects)) is not None:
+            passed["transmit requests"] += len(kept) - len(on_bus)
+            kept, begins, objects = kept[on_bus], begins[on_bus], objects[on_bus]
+        if len(kept):
+            found.append((kept, _block(layout, data, begins, objects, channels)))
     if not found:
         return None, understood
     block = found[0][1]
@@ -124,25 +129,18 @@ def _count_others(types: NDArray[np.uint32], passed: Counter[str]) -> None:
             passed[kind_of(kind)] += count
 
 
-def _sent_or_received(
-    layout: Layout,
-    data: bytes,
-    starts: NDArray[np.int64],
-    rows: NDArray[np.int64],
-    passed: Counter[str],
-) -> tuple[NDArray[np.int64], NDArray[np.void]]:
-    """Which objects of a layout are frames on the bus, and them: not requests to send one."""
-    objects = records(data, starts[rows], layout.record)
+def _on_bus(layout: Layout, objects: NDArray[np.void]) -> NDArray[np.int64] | None:
+    """Which objects are frames on the bus, and no requests to send one; None where all are."""
     if layout.kind == CAN_FD_MESSAGE_64:
         requests = (objects["direction"] == _REQUEST) | (objects["fd_flags"] & _REQUESTED != 0)
     elif layout.kind in (CAN_ERROR, CAN_ERROR_EXT, CAN_FD_ERROR_64):
-        return rows, objects
+        return None
     else:
-        requests = objects["flags"] & _NO_REMOTE == _REQUEST
-    if not requests.any():
-        return rows, objects
-    passed["transmit requests"] += int(np.count_nonzero(requests))
-    return rows[~requests], objects[~requests]
+        flags = objects["flags"]
+        if not flags.any():
+            return None
+        requests = flags & _NO_REMOTE == _REQUEST
+    return np.flatnonzero(~requests) if requests.any() else None
 
 
 def _by_layout(base: NDArray[np.void]) -> Iterator[tuple[Layout, NDArray[np.int64]]]:
