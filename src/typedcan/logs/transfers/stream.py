@@ -204,7 +204,8 @@ class Stream:
             again = np.flatnonzero(self._held.key[part] == self._held.key[begin])
             if len(again) <= _TWICE:
                 return np.zeros(len(times), np.bool_)
-            return np.arange(len(times)) >= again[_TWICE]
+            third: NDArray[np.bool_] = np.arange(len(times)) >= again[_TWICE]
+            return third
         later: NDArray[np.bool_] = times >= times[:1] + _WATCHED
         return later
 
