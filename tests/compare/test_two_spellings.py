@@ -196,3 +196,50 @@ def test_a_second_sender_that_is_gone_is_a_wire_finding(tmp_path: Path) -> None:
     (item,) = compare(read_dbc(CASES / "starts.dbc"), read_dbc(path))
     assert (item.rule, item.level) == ("message-sender-same", "wire")
     assert (item.old, item.new) == ("AA, CC", "AA")
+
+
+def coded(folder: Path, name: str, labels: list[str], more: str = "") -> Protocol:
+    """A file of one signal with these labels from 0 on."""
+    codes = " ".join(f'{value} "{label}"' for value, label in enumerate(labels))
+    text = f"""VERSION ""
+
+NS_ :
+
+BS_:
+
+BU_: A
+
+BO_ 256 M: 8 A
+ SG_ S : 0|8@1+ (1,0) [0|255] "" A
+
+{more}VAL_ 256 S {codes} ;
+"""
+    path = folder / name
+    path.write_text(text, "utf-8")
+    return read_dbc(path)
+
+
+def test_a_long_table_turned_round_is_told_as_one_reversal(tmp_path: Path) -> None:
+    labels = [f"Step {value}" for value in range(200)]
+    (item,) = compare(coded(tmp_path, "old.dbc", labels), coded(tmp_path, "new.dbc", labels[::-1]))
+    assert item.rule == "code-meaning-not-reversed"
+    assert item.old.startswith('0 "Step 0", 1 "Step 1"')
+    assert item.new.startswith('0 "Step 199", 1 "Step 198"')
+
+
+def test_three_codes_that_moved_on_in_a_ring_have_not_changed_places(tmp_path: Path) -> None:
+    items = compare(
+        coded(tmp_path, "old.dbc", ["Low", "Middle", "High"]),
+        coded(tmp_path, "new.dbc", ["High", "Low", "Middle"]),
+    )
+    assert [item.rule for item in items] == ["code-meaning-same"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [(["On", "Off"], ["off", "ON"]), (["Heat on", "Heat off"], ["Off", "On"])]
+)
+def test_the_words_on_and_off_are_seen_whatever_stands_beside_them(
+    old: list[str], new: list[str], tmp_path: Path
+) -> None:
+    (item,) = compare(coded(tmp_path, "old.dbc", old), coded(tmp_path, "new.dbc", new))
+    assert item.rule == "code-meaning-not-reversed"

@@ -18,8 +18,8 @@ _SHOWN = 4
 """Codes that a text names before it counts the rest; ``old`` and ``new`` have all."""
 
 
-_MOST_REVERSED = 64
-"""A table in which more codes than this differ is another one, not one turned round."""
+_MOST_WORDED = 16
+"""Codes of a table whose words are weighed against each other: states have few."""
 
 
 class Difference(Enum):
@@ -95,28 +95,34 @@ def reversed_codes(pairing: Pairing, codes: CodesPair) -> frozenset[int]:
         for value in common
         if not pairing.languages.same_meaning(codes.old[value], codes.new[value])
     ]
-    if not 2 <= len(different) <= _MOST_REVERSED:
+    if len(different) < 2:
         return frozenset()
-    before, after = (
-        {value: _texts(side[value]) for value in different} for side in (codes.old, codes.new)
-    )
+    places: dict[str, list[int]] = {}
+    for value in different:
+        for text in _texts(codes.new[value]):
+            places.setdefault(text, []).append(value)
     moved = {
         (value, other)
         for value in different
-        for other in different
-        if value != other
-        and (not before[value].isdisjoint(after[other]) or _agree(codes, value, other))
+        for text in _texts(codes.old[value])
+        for other in places.get(text, [])[:_MOST_WORDED]
     }
-    return frozenset(value for value, other in moved if (other, value) in moved)
+    if len(different) <= _MOST_WORDED:
+        moved.update(
+            (value, other)
+            for value in different
+            for other in different
+            if agree(_worded(codes.old[value]), _worded(codes.new[other]))
+        )
+    return frozenset(value for value, other in moved if value != other and (other, value) in moved)
 
 
 def _texts(code: Code) -> set[str]:
     return {plain(code.label), plain(code.english)} - {""}
 
 
-def _agree(codes: CodesPair, value: int, other: int) -> bool:
-    old, new = codes.old[value], codes.new[other]
-    return agree(old.english or old.label, new.english or new.label)
+def _worded(code: Code) -> str:
+    return code.english or code.label
 
 
 def one_sided(codes: CodesPair, pairing: Pairing, *, removed: bool) -> list[Code]:

@@ -67,7 +67,9 @@ def plain(label: str) -> str:
 
     Signs and full stops stay: ``-5`` is not ``5``, and ``1.5`` not ``15``.
     """
-    return unicodedata.normalize("NFKC", label).casefold().translate(_SEPARATORS)
+    if not label.isascii():
+        label = unicodedata.normalize("NFKC", label)
+    return label.casefold().translate(_SEPARATORS)
 
 
 def _texts(protocol: Protocol) -> Iterator[Text]:

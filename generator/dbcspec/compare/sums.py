@@ -27,6 +27,8 @@ _SAME_CHANGE = {
     "message-send-type-same": "send type",
 }
 _ALL_ALIKE = {
+    "attribute-same": "attributes of other tools differ",
+    "attribute-definition-same": "definitions of attributes differ",
     "comment-same": "comments differ",
     "reserved-signal-present": "fields that are called reserved are gone",
 }
@@ -87,4 +89,6 @@ def _member(item: Item) -> str:
     within = f"{item.group}." if item.group and item.group != item.subject else ""
     if item.rule in _RENAMES:
         return f"{within}{item.old} → {item.new}"
+    if item.rule.startswith("attribute-"):
+        return f"{within}{item.subject}: {item.text}"
     return f"{within}{item.subject}"

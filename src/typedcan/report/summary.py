@@ -87,12 +87,13 @@ def summary_lines(report: Report) -> list[tuple[str, str]]:
         if topic not in own:
             also.setdefault(topic.level, []).append(topic)
     last = [(level, _together(of)) for level, of in also.items()]
-    below = [_below(topic) for topic in own]
+    below = [_one_by_one(topic) or _run(topic) for topic in own]
     shares = _shares([len(lines) for lines in below], _LINES - len(own) - len(last))
     found: list[tuple[str, str]] = []
     for topic, lines, share in zip(own, below, shares, strict=True):
         found.append((topic.level, shortened(topic.heading, WIDTH - 10)))
-        found += (("", shortened(line, WIDTH - 4)) for line in lines[:share])
+        shown = lines if len(lines) <= share else _run(topic)
+        found += (("", shortened(line, WIDTH - 4)) for line in shown[:share])
     return found + [(level, shortened(text, WIDTH - 10)) for level, text in last]
 
 
@@ -113,10 +114,14 @@ def _together(every: Sequence[Topic]) -> str:
     return ", ".join(f"{topic.name} ({topic.count})" for topic in every)
 
 
-def _below(topic: Topic) -> list[str]:
-    """What is found: each finding, or all of them in a run, message by message."""
-    if len(topic.items) <= _ONE_BY_ONE:
-        return [f"{printable(item.subject)}: {told(item)}" for item in topic.items]
+def _one_by_one(topic: Topic) -> list[str]:
+    """Each finding on a line, where they are few."""
+    few = len(topic.items) <= _ONE_BY_ONE
+    return [f"{printable(item.subject)}: {told(item)}" for item in topic.items] if few else []
+
+
+def _run(topic: Topic) -> list[str]:
+    """All findings in a run, message by message."""
     parts = []
     for group, items in grouped(topic.items).items():
         within = ", ".join(f"{printable(item.subject)}{_value(item)}" for item in items)
