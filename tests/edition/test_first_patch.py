@@ -231,3 +231,26 @@ def test_what_cannot_be_imported_is_said_in_a_line_and_nothing_is_written(
     assert result.returncode == 2
     assert said in result.stderr
     assert sorted(folder.rglob("*")) == before
+
+
+def test_a_code_that_no_bits_can_hold_and_a_unit_that_is_none_are_left_out(folder: Path) -> None:
+    text = SUPPLIER.replace('2 "eco" 3', '2 "eco" 9 "late" 3')
+    (folder / "oven.dbc").write_text(text, "gb18030")
+    heater = imported(folder).message("Heater")
+    table = heater.signal("H_Mode").value_table
+    assert table is not None
+    assert [code.value for code in table.codes] == [0, 1, 2, 3]
+    assert heater.signal("OvenLid").unit == ""
+
+
+def test_where_two_rows_explain_a_signal_both_get_the_codes_and_the_acts_move_once(
+    folder: Path,
+) -> None:
+    row = FILES["tables/01-heater.yaml"].split("  - no: 3\n")[1].split("  - no: 4\n")[0]
+    tables = FILES["tables/01-heater.yaml"] + "  - no: 5\n" + row
+    (folder / "spec/tables/01-heater.yaml").write_text(tables, "utf-8")
+    mode = imported(folder).message("Heater").signal("H_Mode")
+    assert mode.acting is not None
+    assert (mode.acting.codes, mode.acting.safe) == ((0,), 1)
+    rows = [row for _, row in compiled(folder, "oven").spec.rows() if row.name == "H_Mode"]
+    assert [row.labels[0] for row in rows] == ["开", "开"]
