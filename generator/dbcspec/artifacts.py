@@ -12,14 +12,16 @@ from types import MappingProxyType
 from dbcspec.config import Config
 from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
+from dbcspec.emit.foreign import without_hidden
 from dbcspec.emit.json_schema import emit_json_schemas
-from dbcspec.emit.long_names import with_dbc_names
+from dbcspec.emit.long_names import ORIGINAL_NAME, dbc_names, with_dbc_names
 from dbcspec.emit.stub_names import package_name
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.matrix.write import emit_matrix
 from dbcspec.spec.rows import DOCUMENTS
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
+from typedcan.model.soundness import renames, with_unique_names
 from typedcan.shell.files import put_in_place
 
 _DIFF_LINES = 8
@@ -62,16 +64,26 @@ def artifacts(
 
 def dbc_files(protocol: Protocol, name: str, folder: str) -> dict[str, bytes]:
     """The DBC files of a spec: one for everything, two with Chinese texts, one for each bus."""
+    protocol = without_hidden(protocol)
     chinese = emit_dbc(protocol, english=False)
+    buses = {bus.name: emit_dbc(protocol, bus=bus) for bus in protocol.buses}
     return {
-        f"{folder}{name}.dbc": emit_dbc(protocol).encode("ascii"),
-        f"{folder}{name}.zh.dbc": chinese.encode("gb2312"),
+        f"{folder}{name}.dbc": _encoded(emit_dbc(protocol), "ascii", "utf-8"),
+        f"{folder}{name}.zh.dbc": _encoded(chinese, "gb2312", "gb18030"),
         f"{folder}{name}.zh-utf8.dbc": chinese.encode("utf-8"),
         **{
-            f"{folder}{name}-{bus.name}.dbc": emit_dbc(protocol, bus=bus).encode("ascii")
-            for bus in protocol.buses
+            f"{folder}{name}-{bus}.dbc": _encoded(text, "ascii", "utf-8")
+            for bus, text in buses.items()
         },
     }
+
+
+def _encoded(text: str, usual: str, instead: str) -> bytes:
+    """The text in the usual encoding; in another one where that has not all of its letters."""
+    try:
+        return text.encode(usual)
+    except UnicodeEncodeError:
+        return text.encode(instead)
 
 
 def chosen_artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
@@ -87,9 +99,26 @@ def chosen_artifacts(protocol: Protocol, config: Config) -> dict[str, bytes]:
 
 def foreign_artifacts(protocol: Protocol, name: str) -> dict[str, bytes]:
     """What is generated of a protocol that is not the project's: DBC, stubs and matrix."""
-    named = with_dbc_names(protocol)
+    named = made_safe(protocol)
     made = emit_foreign(named, name)
     return {**made, f"{name}.xlsx": emit_matrix(named)}
+
+
+def made_safe(protocol: Protocol) -> Protocol:
+    """The protocol with names that a DBC, Python and a spec take, no two the same."""
+    return with_dbc_names(with_unique_names(protocol))
+
+
+def made_safe_how(protocol: Protocol) -> list[str]:
+    """What `made_safe` changes, a line for each kind of change."""
+    said = [*renames(protocol)]
+    names = dbc_names(protocol)
+    if names:
+        some = ", ".join(f"{old!r} is {new}" for old, new in [*names.items()][:_DIFF_LINES])
+        more = f" and {len(names) - _DIFF_LINES} more" if len(names) > _DIFF_LINES else ""
+        kept = f"the attribute {ORIGINAL_NAME} keeps the old ones"
+        said.append(f"names that no DBC can have: {some}{more}; {kept}")
+    return said
 
 
 def write(root: Path, files: Mapping[str, bytes]) -> list[str]:

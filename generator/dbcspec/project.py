@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from dbcspec.config import Config
 from dbcspec.errors import Fault
+from dbcspec.lint.options import Options
 from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.spec.compiled import compile_spec
@@ -26,7 +27,12 @@ class Project:
 
     def findings(self, algorithms: Given | None = None) -> list[Finding]:
         """What the linter finds and no waiver accepts."""
-        return lint_with(self.subject(algorithms), self.config.lint)
+        return lint_with(self.subject(algorithms), self.lint)
+
+    @property
+    def lint(self) -> Options:
+        """What is asked of the linter: by the project, else by the spec."""
+        return self.config.lint.of_spec(self.spec.standard.profile)
 
     def subject(self, algorithms: Given | None = None) -> Subject:
         """What the linter looks at; ``algorithms`` are what users give to compute checksums."""

@@ -9,7 +9,9 @@ import typing
 from pathlib import Path
 
 from dbcspec.config import find_config
+from dbcspec.emit.foreign import refuse_unwritable
 from dbcspec.errors import FindingsError
+from dbcspec.lint.options import FOREIGN
 from dbcspec.project import Project, load
 from dbcspec.read.doors import open_side
 from typedcan.model.checksums.registry import Given
@@ -18,7 +20,7 @@ from typedcan.model.seal import seals_of
 from typedcan.report.formats import FORMATS, render
 from typedcan.report.item import Report
 from typedcan.shell.algorithms import algorithms_of
-from typedcan.shell.console import say_text
+from typedcan.shell.console import note, say_text
 from typedcan.shell.files import put_in_place
 
 
@@ -77,11 +79,19 @@ def given_algorithms(options: argparse.Namespace, protocol: Protocol) -> Given:
 
 
 def load_sound_project(options: argparse.Namespace, choice: str = "") -> Project:
-    """The project, if the linter has nothing against it; raises `FindingsError`."""
+    """The project, if the linter has nothing against it; raises `FindingsError`.
+
+    A spec of the profile foreign, as `dbcspec import` makes it, may have what its file has: that is
+    noted, as long as a DBC can say it; else raises `ReadError`.
+    """
     project = load_project(options, choice)
     every = project.findings(given_algorithms(options, project.protocol))
-    if findings := [each for each in every if each.level != "note"]:
+    findings = [each for each in every if each.level != "note"]
+    if findings and project.spec.standard.profile != FOREIGN:
         raise FindingsError(findings)
+    if findings:
+        note(f"{len(findings)} findings: dbcspec lint names them")
+        refuse_unwritable(project.protocol)
     return project
 
 

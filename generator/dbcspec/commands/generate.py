@@ -12,6 +12,7 @@ from dbcspec.artifacts import (
     artifacts,
     chosen_artifacts,
     foreign_artifacts,
+    made_safe_how,
     verify,
     write,
 )
@@ -26,14 +27,16 @@ from dbcspec.commands.common import (
 )
 from dbcspec.emit.stub_names import package_name
 from dbcspec.errors import StaleArtifactError
+from dbcspec.matrix.write import not_in_matrix
 from dbcspec.project import Project
 from dbcspec.read.doors import open_side
 from dbcspec.spec.variants import with_variants
 from dbcspec.trial import try_package
 from typedcan.model.errors import ReadError
 from typedcan.model.protocol import Protocol
+from typedcan.model.soundness import hidden_how
 from typedcan.shell.algorithms import add_algorithm_option
-from typedcan.shell.console import say
+from typedcan.shell.console import note, say
 from typedcan.shell.printing import printable_json
 
 
@@ -74,6 +77,9 @@ def _generate(options: argparse.Namespace) -> int:
         name = package_name(Path(options.source.rsplit(":", 1)[-1]).stem)
         root, files = options.out, foreign_artifacts(protocol, name)
         try_package(files, name, f"{name}.dbc")
+        said = [*made_safe_how(protocol), *hidden_how(protocol), *not_in_matrix(protocol)]
+        for text in said:
+            note(text)
     elif choice:
         project = load_sound_project(options, choice)
         protocol, root = project.protocol, options.out

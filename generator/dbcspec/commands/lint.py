@@ -26,6 +26,7 @@ from dbcspec.lint.rule import Subject
 from dbcspec.lint.run import lint_with
 from dbcspec.lint.waiver_used import RULE as WAIVER_USED
 from dbcspec.read.doors import MATRIX, open_side
+from dbcspec.spec.rows import Spec
 from typedcan.databases.encoding import read_encoded
 from typedcan.model.errors import ReadError
 from typedcan.report.item import LINT_LEVELS, Report
@@ -77,7 +78,7 @@ def _lint(options: argparse.Namespace) -> int:
         _fix(options)
     if options.target:
         side = open_side(options.target, encoding=options.encoding, wide=True)
-        found = _usual(Path(options.target), is_spec=side.spec is not None)
+        found = _usual(Path(options.target), side.spec)
         subject = Subject(
             protocol=side.protocol,
             spec=side.spec,
@@ -89,7 +90,7 @@ def _lint(options: argparse.Namespace) -> int:
         title = options.target
     else:
         project = load_project(options, choice_text(options))
-        found = project.config.lint
+        found = project.lint
         subject = project.subject(given_algorithms(options, project.protocol))
         title = project.config.spec
     if options.config:
@@ -104,9 +105,11 @@ def _lint(options: argparse.Namespace) -> int:
     return 1 if any(item.level in failing for item in items) else 0
 
 
-def _usual(target: Path, *, is_spec: bool) -> Options:
+def _usual(target: Path, spec: Spec | None) -> Options:
     """What is asked of a file unless the user says: of what a project generates, what it asks."""
-    if is_spec or target.suffix.lower() == MATRIX:
+    if spec:
+        return Options().of_spec(spec.standard.profile)
+    if target.suffix.lower() == MATRIX:
         return Options()
     try:
         config = find_config(target.resolve().parent)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from dbcspec.artifacts import write
+from dbcspec.artifacts import made_safe, made_safe_how, write
 from dbcspec.commands import HELP
 from dbcspec.commands.common import (
     Commands,
@@ -19,11 +19,14 @@ from dbcspec.compare.run import RULES, compare
 from dbcspec.config import find_config
 from dbcspec.edition.propose import propose_edition
 from dbcspec.emit.spec import emit_spec
+from dbcspec.emit.spec_database import not_in_spec
+from dbcspec.emit.stub_names import package_name
 from dbcspec.matrix.read import read_matrix
-from dbcspec.matrix.write import emit_matrix
+from dbcspec.matrix.write import emit_matrix, not_in_matrix
 from dbcspec.read.doors import open_side
 from dbcspec.spec.write import propose_spec
 from typedcan.model.errors import ReadError
+from typedcan.model.soundness import renames, with_unique_names
 from typedcan.report.item import Report
 from typedcan.shell.console import note, say
 from typedcan.shell.files import put_in_place
@@ -72,8 +75,10 @@ def add(commands: Commands) -> None:
 def _export(options: argparse.Namespace) -> int:
     protocol = source_protocol(options)
     path = options.output or Path(f"{protocol.name}.xlsx")
-    put_in_place({path: emit_matrix(protocol)})
+    put_in_place({path: emit_matrix(with_unique_names(protocol))})
     say(f"wrote {path}")
+    for text in (*renames(protocol), *not_in_matrix(protocol)):
+        note(text)
     return 0
 
 
@@ -102,8 +107,13 @@ def _import(options: argparse.Namespace) -> int:
     if options.out.exists() and any(options.out.iterdir()):
         raise ReadError(f"{options.out}: is not empty; a spec is written into a folder of its own")
     protocol = open_side(options.file, encoding=options.encoding).protocol
-    for name in write(options.out, emit_spec(protocol)):
-        say(f"wrote {options.out / name}")
+    files = emit_spec(made_safe(protocol))
+    name = package_name(Path(options.file.rsplit(":", 1)[-1]).stem)
+    files["pyproject.toml"] = f'[tool.dbcspec]\nname = "{name}"\nspec = "."\n'.encode()
+    for file in write(options.out, files):
+        say(f"wrote {options.out / file}")
+    for text in (*made_safe_how(protocol), *not_in_spec(protocol)):
+        note(text)
     return 0
 
 

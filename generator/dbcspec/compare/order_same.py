@@ -83,7 +83,10 @@ def _moved(old: Sequence[str], new: Sequence[str]) -> bool:
 
 def _common(old: Sequence[str], new: Sequence[str]) -> tuple[list[str], list[str]]:
     both = set(old) & set(new)
-    return [name for name in old if name in both], [name for name in new if name in both]
+    before, after = (
+        [*dict.fromkeys(each for each in names if each in both)] for names in (old, new)
+    )
+    return before, after
 
 
 def _where_they_differ(old: Sequence[str], new: Sequence[str]) -> tuple[str, str]:

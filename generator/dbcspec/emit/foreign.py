@@ -25,17 +25,27 @@ def foreign_artifacts(protocol: Protocol, out_name: str) -> dict[str, bytes]:
     """
     if not _NAME.fullmatch(out_name) or keyword.iskeyword(out_name):
         raise ReadError(f"{out_name}: is no name for a Python package")
+    refuse_unwritable(protocol)
+    protocol = with_unique_names(protocol)
+    stubs = emit_stubs(protocol)
+    return {
+        f"{out_name}.dbc": emit_dbc(without_hidden(protocol)).encode("utf-8"),
+        **{f"{out_name}/{name}": text.encode("utf-8") for name, text in stubs.items()},
+    }
+
+
+def without_hidden(protocol: Protocol) -> Protocol:
+    """The protocol without messages whose identifier a later one has: no DBC has two of those."""
+    not_written = hidden(protocol)
+    written = tuple(each for each in protocol.messages if each.name not in not_written)
+    return replace(protocol, messages=written) if not_written else protocol
+
+
+def refuse_unwritable(protocol: Protocol) -> None:
+    """Raise `ReadError` for a protocol that no DBC can say, see `dbc_faults`."""
     if faults := dbc_faults(protocol):
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         raise ReadError(f"{faults[0]}{more}")
-    protocol = with_unique_names(protocol)
-    not_written = hidden(protocol)
-    written = tuple(each for each in protocol.messages if each.name not in not_written)
-    stubs = emit_stubs(protocol)
-    return {
-        f"{out_name}.dbc": emit_dbc(replace(protocol, messages=written)).encode("utf-8"),
-        **{f"{out_name}/{name}": text.encode("utf-8") for name, text in stubs.items()},
-    }
 
 
 def dbc_faults(protocol: Protocol) -> list[str]:

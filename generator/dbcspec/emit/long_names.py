@@ -6,10 +6,12 @@ import dataclasses
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import TypeVar
 
 from dbcspec.emit.extras import renamed_extras, renamed_variable
+from typedcan.model.extras import Attribute, AttributeDefinition
 from typedcan.model.naming import LONGEST_NAME, is_dbc_keyword, unused
-from typedcan.model.protocol import Message, Protocol, Signal
+from typedcan.model.protocol import Message, Node, Protocol, Signal
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +32,70 @@ def shortened(protocol: Protocol) -> tuple[Protocol, list[LongName]]:
 
 
 def with_dbc_names(protocol: Protocol) -> Protocol:
-    """The protocol with names of letters, digits and underscores, as DBC files and Python want."""
-    return _renamed(protocol, _plain_names)[0]
+    """The protocol with names of letters, digits and underscores, as DBC files and Python want.
+
+    What had another name has it as the attribute `ORIGINAL_NAME`.
+    """
+    new, names = _renamed(protocol, _plain_names)
+    return _with_original_names(new, names) if other_names(names) else new
+
+
+def other_names(names: Iterable[LongName]) -> dict[str, str]:
+    """Names to those that are written in their place, where that is another one."""
+    return {name.long: name.short for name in names if name.short != name.long}
+
+
+def dbc_names(protocol: Protocol) -> dict[str, str]:
+    """The names that `with_dbc_names` changes, to what it makes of them."""
+    return other_names(_renamed(protocol, _plain_names)[1])
+
+
+ORIGINAL_NAME = "OriginalName"
+"""The attribute of nodes, messages and signals whose name no DBC can have."""
+
+
+def _with_original_names(protocol: Protocol, names: Iterable[LongName]) -> Protocol:
+    changed = [name for name in names if name.short != name.long]
+    nodes = {each.short: each.long for each in changed if not each.message}
+    messages = {
+        id(each.message): each.long for each in changed if each.message and not each.is_signal
+    }
+    signals = {
+        (id(each.message), each.short): each.long
+        for each in changed
+        if each.message and each.is_signal
+    }
+    used = [("BU_", nodes), ("BO_", messages), ("SG_", signals)]
+    known = {(each.of, each.name) for each in protocol.definitions}
+    definitions = (
+        AttributeDefinition(ORIGINAL_NAME, of, "STRING", "")
+        for of, found in used
+        if found and (of, ORIGINAL_NAME) not in known
+    )
+    return dataclasses.replace(
+        protocol,
+        definitions=(*protocol.definitions, *definitions),
+        nodes=tuple(_named(each, nodes.get(each.name)) for each in protocol.nodes),
+        messages=tuple(
+            dataclasses.replace(
+                _named(message, messages.get(id(message))),
+                signals=tuple(
+                    _named(each, signals.get((id(message), each.name))) for each in message.signals
+                ),
+            )
+            for message in protocol.messages
+        ),
+    )
+
+
+_Named = TypeVar("_Named", Node, Message, Signal)
+
+
+def _named(item: _Named, original: str | None) -> _Named:
+    if original is None or any(each.name == ORIGINAL_NAME for each in item.attributes):
+        return item
+    attributes = (*item.attributes, Attribute(ORIGINAL_NAME, original))
+    return dataclasses.replace(item, attributes=attributes)
 
 
 def _renamed(
@@ -62,6 +126,10 @@ def _renamed(
         protocol,
         nodes=tuple(dataclasses.replace(node, name=nodes[node.name]) for node in protocol.nodes),
         messages=tuple(changed),
+        buses=tuple(
+            dataclasses.replace(bus, nodes=tuple(nodes.get(name, name) for name in bus.nodes))
+            for bus in protocol.buses
+        ),
         variables=tuple(renamed_variable(each, nodes) for each in protocol.variables),
         value_tables=tuple(
             dataclasses.replace(table, name=tables[table.name]) for table in protocol.value_tables

@@ -25,7 +25,8 @@ _TYPES = {SendType.CYCLIC: "Cyclic", SendType.IF_ACTIVE: "IfActive", SendType.EV
 def emit_spec(protocol: Protocol) -> dict[str, bytes]:
     """The files of a spec folder, path below it to bytes in UTF-8.
 
-    One table per message; a signal whose name several messages have gets its row for each.
+    One table per message; a signal whose name several messages have gets its row for each. The
+    linter asks of it what it asks of files of others.
     """
     names = Counts(signal.name for _, signal in protocol.signals())
     repeated = {name for name, count in names.items() if count > 1}
@@ -52,6 +53,7 @@ def _standard(protocol: Protocol, repeated: set[str]) -> Iterator[str]:
         yield f"edition: {scalar(protocol.edition)}"
     yield from _participants(protocol)
     yield f"frame_format: {protocol.frame_format}"
+    yield "profile: foreign"
     if any(message.reserved for message in protocol.messages):
         yield f"reserved: [{_reserved_name(protocol)}]"
     for key, labels in _state_labels(protocol).items():

@@ -43,6 +43,15 @@ def database_lines(protocol: Protocol) -> list[str]:
     return [head, *lines] if lines else []
 
 
+def not_in_spec(protocol: Protocol) -> Iterator[str]:
+    """What of a protocol no spec made of it says, a line each."""
+    used = {signal.value_table for _, signal in protocol.signals()}
+    if unused := [each.name for each in protocol.value_tables if each not in used]:
+        yield f"not in the spec: value tables that no signal has: {', '.join(unused)}"
+    if protocol.errata:
+        yield f"not in the spec: {len(protocol.errata)} errata"
+
+
 def _attributes(protocol: Protocol) -> Iterator[Pairs]:
     def rows(attributes: tuple[Attribute, ...], owner: Pairs) -> Iterator[Pairs]:
         for each in attributes:

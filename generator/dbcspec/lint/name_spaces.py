@@ -40,10 +40,10 @@ def name_spaces(subject: Subject) -> Iterator[list[Named]]:
     tables = [
         Named(places.name(table), table.name, "a value table") for table in protocol.value_tables
     ]
-    if Aspect.PYTHON_NAMES in protocol.carries:
+    if Aspect.PYTHON_NAMES in protocol.carries and subject.settings.house:
         yield messages + tables
     else:
-        yield messages
+        yield messages  # generated classes of foreign files get out of each other's way
         # Names that the reader made up for codes without one are no names.
         yield tables if Aspect.VALUE_TABLE_NAMES in protocol.carries else []
     yield _nodes(subject)

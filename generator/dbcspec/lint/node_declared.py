@@ -47,7 +47,7 @@ def _in_spec(spec: Spec) -> Iterator[_Mention]:
     owners = {field.name: message.name for message, field in spec.fields()}
     for _, row in spec.rows():
         sender, receivers = row.route or ("", ())
-        for node in (sender, *receivers) if row.route else ():
+        for node in filter(None, (sender, *receivers)):
             yield (
                 row.where_is("route"),
                 names.get(node, node),

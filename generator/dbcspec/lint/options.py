@@ -42,6 +42,10 @@ class Options:
             settings=dataclasses.replace(self.settings, house=house),
         )
 
+    def of_spec(self, profile: str) -> Options:
+        """The options under the profile that a spec gives, where nothing else is selected."""
+        return self.under(profile) if profile != HOUSE and self.select == (DEFAULT,) else self
+
     def rules(self) -> tuple[Rule, ...]:
         """The rules that are selected and not ignored, in the order of the registry."""
         wanted = _ids(self.select) - _ids(self.ignore)

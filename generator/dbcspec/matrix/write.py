@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
@@ -15,11 +15,12 @@ from dbcspec.matrix.columns import (
     CODES_HEADING,
     ENGLISH_CODES_HEADING,
     SIGNAL_NAME_HEADING,
-    Column,
     code_blocks,
     columns_of,
     node_names,
 )
+from dbcspec.matrix.headings import MATRIX as HEADINGS
+from dbcspec.matrix.headings import meanings
 from dbcspec.matrix.sheets import add_cover, add_errata, add_nodes
 from dbcspec.matrix.workbook import workbook_bytes
 from typedcan.model.protocol import Aspect, Message, Protocol, Signal
@@ -56,6 +57,25 @@ def emit_matrix(protocol: Protocol) -> bytes:
     return workbook_bytes(book)
 
 
+def not_in_matrix(protocol: Protocol) -> Iterator[str]:
+    """What of a protocol no matrix has room for, a line each."""
+    attributes = [
+        *protocol.attributes,
+        *(each for node in protocol.nodes for each in node.attributes),
+        *(each for message in protocol.messages for each in message.attributes),
+        *(each for _, signal in protocol.signals() for each in signal.attributes),
+    ]
+    found = {
+        "attributes": len(attributes),
+        "attribute definitions": len(protocol.definitions),
+        "signal groups": sum(len(each.groups) for each in protocol.messages),
+        "environment variables": len(protocol.variables),
+    }
+    said = ", ".join(f"{count} {what}" for what, count in found.items() if count)
+    if said:
+        yield f"not in the matrix: {said}"
+
+
 class _MatrixSheet:
     """Fills the one sheet that has everything: a row per message, then a row per signal."""
 
@@ -88,10 +108,9 @@ class _MatrixSheet:
     def _headings(self) -> None:
         for number, column in enumerate(self._columns, start=1):
             put(self._sheet, 1, number, column.heading, "swap_head")
-        # A node called like a column would be taken for it.
-        words = {word.lower() for column in self._columns for word in _words(column)}
         for number, node in enumerate(self._nodes, start=1 + len(self._columns)):
-            heading = f"节点: {node}" if node.lower() in words else node
+            # A node called like a column, in whatever matrix, would be taken for it.
+            heading = f"节点: {node}" if meanings(node, HEADINGS) else node
             put(self._sheet, 1, number, heading, "swap_head")
         widths = [*(column.width for column in self._columns), *(_NODE_WIDTH for _ in self._nodes)]
         set_widths(self._sheet, widths)
@@ -150,10 +169,6 @@ def _role_of(node: str, message: Message, receivers: Sequence[str]) -> str:
         "R": node in receivers,
     }
     return "/".join(letter for letter, there in parts.items() if there)
-
-
-def _words(column: Column) -> tuple[str, str]:
-    return column.chinese, column.english.replace(" ", "")
 
 
 def _lines(text: str, width: float) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from decimal import Decimal
 from typing import TypeVar
@@ -21,7 +21,7 @@ from dbcspec.spec.resolve_standard import (
     row_reference,
     table_reference,
 )
-from dbcspec.spec.rows import FieldRow, MessageRow, Spec
+from dbcspec.spec.rows import FieldRow, MessageRow, SignalRow, Spec
 from dbcspec.spec.schema import Record
 from dbcspec.spec.value_tables import ValueTables
 from typedcan.model import protocol as model
@@ -230,7 +230,7 @@ class _Resolver:
             factor = Decimal(1)
         value_table = self._value_tables.of(row)
         standard = self._spec.standard
-        invalid_codes = _labelled(row.labels, standard.invalid_labels)
+        invalid_codes = _labelled(row, standard.invalid_labels)
         invalid = invalid_codes[0] if invalid_codes else None
         acting = self._acting.get(f"{message.name}.{field.name}") or self._acting.get(field.name)
         usual = usual_start(invalid, acting) if filled is None else filled
@@ -255,7 +255,7 @@ class _Resolver:
             value_table=value_table,
             invalid_code=invalid,
             other_invalid_codes=tuple(invalid_codes[1:]),
-            abnormal_code=next(iter(_labelled(row.labels, standard.abnormal_labels)), None),
+            abnormal_code=next(iter(_labelled(row, standard.abnormal_labels)), None),
             start_value=usual if field.initial is None else field.initial,
             acting=acting,
             receivers=tuple(map(self._node, receivers)),
@@ -275,5 +275,7 @@ class _Resolver:
             yield Transfer(**facts)
 
 
-def _labelled(codes: Mapping[int, str], labels: tuple[str, ...]) -> list[int]:
-    return [code for code, label in codes.items() if label in labels]
+def _labelled(row: SignalRow, labels: tuple[str, ...]) -> list[int]:
+    """The codes that have such a label, as printed or in English."""
+    english = row.english_codes
+    return [code for code, label in row.labels.items() if {label, english.get(code)} & {*labels}]

@@ -151,7 +151,7 @@ def _whole_number(text: str) -> int:
     return int(text, 0) if text[1:2] in ("x", "X") else int(text)
 
 
-_NUMBER = r"-?\d{1,20}(?:\.\d{1,40})?"
+_NUMBER = r"-?\d{1,400}(?:\.\d{1,400})?"
 
 TEXT = Kind("text", expect_text, {"type": ["string", "number", "boolean", "null"]})
 INTEGER = pattern("a whole number", r"-?\d{1,20}|0[xX][0-9A-Fa-f]{1,8}", _whole_number)

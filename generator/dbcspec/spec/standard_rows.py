@@ -64,6 +64,11 @@ class Standard(Record):
         "VFrameFormat of the messages",
     )
     reserved: tuple[str, ...] = key(LIST_OF_TEXT, "names of fields that are no signals", default=())
+    profile: str = key(
+        one_of("house", "foreign"),
+        "what lint asks unless the project says: house of our own, foreign of files of others",
+        default="house",
+    )
     units: Mapping[str, str] = key(map_of(TEXT, TEXT), "printed unit: its ASCII form", default={})
     invalid_labels: tuple[str, ...] = key(LIST_OF_TEXT, "labels of an invalid signal", default=())
     abnormal_labels: tuple[str, ...] = key(LIST_OF_TEXT, "labels of an abnormal value", default=())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from itertools import islice
 
@@ -21,20 +22,33 @@ _Condition = Mapping[str, frozenset[int]]
 
 def remarks(protocol: Protocol) -> Iterator[str]:
     """What is odd, a line each: names that are taken, messages that hide, signals left out."""
+    yield from renames(protocol)
+    yield from hidden_how(protocol)
+    for message in protocol.messages:
+        for signal, reason in unreadable(message):
+            yield f"{message.name}.{signal.name} is left out: {reason}"
+        for first, second, _ in overlaps(message):
+            yield f"{message.name}: {second.name} shares bits with {first.name}"
+
+
+def renames(protocol: Protocol) -> Iterator[str]:
+    """What `with_unique_names` changes, a line each."""
     unique = with_unique_names(protocol)
+    for name, count in Counter(node.name for node in protocol.nodes).items():
+        if count > 1:
+            yield f"the node {name} stands there {count} times: once is kept"
     for message, other in zip(protocol.messages, unique.messages, strict=True):
         if message.name != other.name:
             yield f"a second message {message.name} is called {other.name}"
         for signal, renamed in zip(message.signals, other.signals, strict=True):
             if signal.name != renamed.name:
                 yield f"{message.name}: a second signal {signal.name} is called {renamed.name}"
+
+
+def hidden_how(protocol: Protocol) -> Iterator[str]:
+    """Which messages no frame is, a line each."""
     for name, later in hidden(protocol).items():
         yield f"{name} has the identifier of {later}: frames are taken for {later}"
-    for message in protocol.messages:
-        for signal, reason in unreadable(message):
-            yield f"{message.name}.{signal.name} is left out: {reason}"
-        for first, second, _ in overlaps(message):
-            yield f"{message.name}: {second.name} shares bits with {first.name}"
 
 
 def remark(protocol: Protocol) -> str:
@@ -56,7 +70,14 @@ def hidden(protocol: Protocol) -> dict[str, str]:
 
 
 def with_unique_names(protocol: Protocol) -> Protocol:
-    """The protocol, each later message or signal of one name with a number behind it."""
+    """The protocol, each later message or signal of one name with a number behind it.
+
+    Of several nodes of one name the first is left.
+    """
+    first = {node.name: node for node in reversed(protocol.nodes)}
+    if len(first) < len(protocol.nodes):
+        left = tuple(node for node in protocol.nodes if first[node.name] is node)
+        return with_unique_names(dataclasses.replace(protocol, nodes=left))
     names = [message.name for message in protocol.messages]
     unique = len(set(names)) == len(names)
     if unique and all(_unique(each.signals) is each.signals for each in protocol.messages):
