@@ -14,7 +14,7 @@ from dbcspec.emit.dbc import emit_dbc
 from dbcspec.emit.foreign import foreign_artifacts as emit_foreign
 from dbcspec.emit.foreign import without_hidden
 from dbcspec.emit.json_schema import emit_json_schemas
-from dbcspec.emit.long_names import ORIGINAL_NAME, dbc_names, with_dbc_names
+from dbcspec.emit.long_names import ORIGINAL_NAMES, dbc_names, with_dbc_names
 from dbcspec.emit.stub_names import package_name
 from dbcspec.emit.stubs import emit_stubs
 from dbcspec.matrix.write import emit_matrix
@@ -116,7 +116,7 @@ def made_safe_how(protocol: Protocol) -> list[str]:
     if names:
         some = ", ".join(f"{old!r} is {new}" for old, new in [*names.items()][:_DIFF_LINES])
         more = f" and {len(names) - _DIFF_LINES} more" if len(names) > _DIFF_LINES else ""
-        kept = f"the attribute {ORIGINAL_NAME} keeps the old ones"
+        kept = f"{', '.join(ORIGINAL_NAMES.values())} keep the old ones"
         said.append(f"names that no DBC can have: {some}{more}; {kept}")
     return said
 

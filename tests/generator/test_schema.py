@@ -170,7 +170,7 @@ def test_the_json_schemas_accept_the_spec_as_an_editor_reads_it(root: Path) -> N
         checked.add(schema[1])
         document = as_an_editor_reads(yaml.load(path.read_text("utf-8"), Loader=yaml.BaseLoader))
         assert list(complaints(document, SCHEMAS[schema[1]], path.name)) == []
-    assert checked == set(SCHEMAS)
+    assert checked == set(SCHEMAS) - {"database.json"}  # the standard has no DBC of its own
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ _FACTS = (
     *("minimum", "maximum", "is_selector", "multiplexer", "selectors"),
     *("invalid_code", "abnormal_code"),
 )
-_NOT_CARRIED = {Aspect.TRANSFERS, Aspect.PYTHON_NAMES}
+_NOT_CARRIED = {Aspect.TRANSFERS, Aspect.PYTHON_NAMES, Aspect.ATTRIBUTES}
 
 
 def through_a_workbook(protocol: Protocol, folder: Path) -> Protocol:

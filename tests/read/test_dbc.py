@@ -151,12 +151,13 @@ def test_every_signal_and_message_knows_its_line(root: Path) -> None:
 
 
 def test_a_file_carries_what_it_defines() -> None:
-    assert load("attributes").carries == {Aspect.PERIODS, Aspect.REFERENCES}
-    assert load("j1939").carries == {Aspect.ADDRESSES, Aspect.FRAME_FORMATS}
-    assert load("start_values").carries == {Aspect.START_VALUES}
-    assert load("shared_value_tables").carries == {Aspect.VALUE_TABLE_NAMES}
-    assert load("comments").carries == {Aspect.COMMENTS}
-    assert load("motorola").carries == frozenset()
+    every = {Aspect.ATTRIBUTES}
+    assert load("attributes").carries == {*every, Aspect.PERIODS, Aspect.REFERENCES}
+    assert load("j1939").carries == {*every, Aspect.ADDRESSES, Aspect.FRAME_FORMATS}
+    assert load("start_values").carries == {*every, Aspect.START_VALUES}
+    assert load("shared_value_tables").carries == {*every, Aspect.VALUE_TABLE_NAMES}
+    assert load("comments").carries == {*every, Aspect.COMMENTS}
+    assert load("motorola").carries == every
 
 
 def test_attributes_become_what_the_model_has_of_them() -> None:

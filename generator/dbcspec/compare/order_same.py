@@ -83,10 +83,8 @@ def _moved(old: Sequence[str], new: Sequence[str]) -> bool:
 
 def _common(old: Sequence[str], new: Sequence[str]) -> tuple[list[str], list[str]]:
     both = set(old) & set(new)
-    before, after = (
-        [*dict.fromkeys(each for each in names if each in both)] for names in (old, new)
-    )
-    return before, after
+    before = dict.fromkeys(name for name in old if name in both)
+    return [*before], [*dict.fromkeys(name for name in new if name in both)]
 
 
 def _where_they_differ(old: Sequence[str], new: Sequence[str]) -> tuple[str, str]:

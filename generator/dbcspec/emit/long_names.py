@@ -34,7 +34,7 @@ def shortened(protocol: Protocol) -> tuple[Protocol, list[LongName]]:
 def with_dbc_names(protocol: Protocol) -> Protocol:
     """The protocol with names of letters, digits and underscores, as DBC files and Python want.
 
-    What had another name has it as the attribute `ORIGINAL_NAME`.
+    What had another name has it as an attribute of `ORIGINAL_NAMES`.
     """
     new, names = _renamed(protocol, _plain_names)
     return _with_original_names(new, names) if other_names(names) else new
@@ -50,8 +50,12 @@ def dbc_names(protocol: Protocol) -> dict[str, str]:
     return other_names(_renamed(protocol, _plain_names)[1])
 
 
-ORIGINAL_NAME = "OriginalName"
-"""The attribute of nodes, messages and signals whose name no DBC can have."""
+ORIGINAL_NAMES = {
+    "BU_": "OriginalNodeName",
+    "BO_": "OriginalMessageName",
+    "SG_": "OriginalSignalName",
+}
+"""The attributes of nodes, messages and signals whose name no DBC can have."""
 
 
 def _with_original_names(protocol: Protocol, names: Iterable[LongName]) -> Protocol:
@@ -68,19 +72,20 @@ def _with_original_names(protocol: Protocol, names: Iterable[LongName]) -> Proto
     used = [("BU_", nodes), ("BO_", messages), ("SG_", signals)]
     known = {(each.of, each.name) for each in protocol.definitions}
     definitions = (
-        AttributeDefinition(ORIGINAL_NAME, of, "STRING", "")
+        AttributeDefinition(ORIGINAL_NAMES[of], of, "STRING", "")
         for of, found in used
-        if found and (of, ORIGINAL_NAME) not in known
+        if found and (of, ORIGINAL_NAMES[of]) not in known
     )
     return dataclasses.replace(
         protocol,
         definitions=(*protocol.definitions, *definitions),
-        nodes=tuple(_named(each, nodes.get(each.name)) for each in protocol.nodes),
+        nodes=tuple(_named(each, "BU_", nodes.get(each.name)) for each in protocol.nodes),
         messages=tuple(
             dataclasses.replace(
-                _named(message, messages.get(id(message))),
+                _named(message, "BO_", messages.get(id(message))),
                 signals=tuple(
-                    _named(each, signals.get((id(message), each.name))) for each in message.signals
+                    _named(each, "SG_", signals.get((id(message), each.name)))
+                    for each in message.signals
                 ),
             )
             for message in protocol.messages
@@ -91,10 +96,11 @@ def _with_original_names(protocol: Protocol, names: Iterable[LongName]) -> Proto
 _Named = TypeVar("_Named", Node, Message, Signal)
 
 
-def _named(item: _Named, original: str | None) -> _Named:
-    if original is None or any(each.name == ORIGINAL_NAME for each in item.attributes):
+def _named(item: _Named, of: str, original: str | None) -> _Named:
+    name = ORIGINAL_NAMES[of]
+    if original is None or any(each.name == name for each in item.attributes):
         return item
-    attributes = (*item.attributes, Attribute(ORIGINAL_NAME, original))
+    attributes = (*item.attributes, Attribute(name, original))
     return dataclasses.replace(item, attributes=attributes)
 
 
