@@ -25,8 +25,7 @@ _TYPES = {SendType.CYCLIC: "Cyclic", SendType.IF_ACTIVE: "IfActive", SendType.EV
 def emit_spec(protocol: Protocol) -> dict[str, bytes]:
     """The files of a spec folder, path below it to bytes in UTF-8.
 
-    One table per message; a signal whose name several messages have gets its row for each. The
-    linter asks of it what it asks of files of others.
+    One table per message; a signal whose name several messages have gets its row for each.
     """
     names = Counts(signal.name for _, signal in protocol.signals())
     repeated = {name for name, count in names.items() if count > 1}
