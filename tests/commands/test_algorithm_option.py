@@ -77,7 +77,8 @@ def test_plot_leaves_it_out(log: Path, tmp_path: Path, capsys: Capture) -> None:
 def test_conform_judges_it(log: Path, capsys: Capture) -> None:
     assert run(["conform", str(log), "--judge", "BMU", "--only", "checksum", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)
-    given = ["--judge", "BMU", "--only", "checksum", "--algorithm", OURS]
+    # The standard leaves the algorithm open, so that a wrong one is no broken demand.
+    given = ["--judge", "BMU", "--only", "checksum", "--algorithm", OURS, "--strict"]
     assert run(["conform", str(log), *given]) == 1
     assert "checksum 0xFE, the bytes make 0xFF" in capsys.readouterr().out
 

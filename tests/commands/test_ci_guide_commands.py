@@ -11,6 +11,8 @@ import pytest
 from dbcspec.cli import PROGRAM
 
 GUIDE = (Path(__file__).parents[2] / "docs" / "ci.md").read_text("utf-8")
+GUIDE = GUIDE.replace("$accepted", "--approvals approvals.toml")  # as the guide sets it
+GUIDE = re.sub(r"\\\n *", "", GUIDE)
 COMMANDS = sorted(
     set(re.findall(r"^ *(?:- )?(?:run: )?(dbcspec .+?)(?: \|\| .*)?$", GUIDE, re.MULTILINE))
 )

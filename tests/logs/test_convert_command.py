@@ -237,9 +237,10 @@ def test_ctrl_c_leaves_nothing_half_written(
     def interrupt(progress: Progress, position: int, frames: int) -> None:
         signal.raise_signal(signal.SIGINT)
 
+    later = write_frames(tmp_path / "later.blf", traffic(60, START + 1000))
     monkeypatch.setattr(Progress, "update", interrupt)
-    assert _run(log, log, "-o", tmp_path / output, "--jobs", jobs) == 130
-    assert list(tmp_path.iterdir()) == []
+    assert _run(log, later, "-o", tmp_path / output, "--jobs", jobs) == 130
+    assert list(tmp_path.iterdir()) == [later]
 
 
 def test_a_dbc_of_somebody_elses_is_decoded_too(tmp_path: Path) -> None:

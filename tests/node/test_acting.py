@@ -111,6 +111,8 @@ def test_safe_codes_replace_what_acts_and_nothing_else(kind: type[Message]) -> N
         for (other, field), (_, safe) in TABLE.items()
         if other is kind
     }
+    if "V2B_CMD_Heat_OnOff" in wanted:
+        wanted["V2B_CMD_Heat_OnOff"] = 3  # editions disagree about 1 and 2: Signal Invalid
     assert decoded(safe=True) == decoded(safe=False) | wanted
     assert decoded(safe=False) != decoded(safe=True)
 

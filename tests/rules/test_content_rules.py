@@ -94,7 +94,7 @@ def test_of_all_codes_of_a_byte_those_are_found_that_leave_the_printed_range(
     assert frames_by_signal(result) == {
         **volts,
         "B2V_BI2_AvaiMax_Ucell": 204,
-        "BSU_ConnectorTemp": 5,
+        "BSU_ConnectorTemp": 4,
     }
 
 

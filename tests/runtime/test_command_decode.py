@@ -242,6 +242,6 @@ def test_a_closed_pipe_is_quiet(tmp_path: Path, environment: dict[str, str]) -> 
     assert process.stderr
     process.stdout.readline()
     process.stdout.close()
-    assert process.stderr.read() == ""
+    assert process.stderr.read() == "swapcan: nobody reads the output any more\n"
     process.stderr.close()
-    assert process.wait(timeout=10) == 1
+    assert process.wait(timeout=10) == 2

@@ -157,5 +157,5 @@ def test_listen_ends_quietly_when_its_reader_goes_away(
     process.stdout.readline()
     process.stdout.close()
     link.send(B2V_ST2(soc=81.0))
-    assert process.wait(timeout=10) == 1
-    assert process.stderr.read() == ""
+    assert process.wait(timeout=10) == 2
+    assert process.stderr.read() == "swapcan: nobody reads the output any more\n"
