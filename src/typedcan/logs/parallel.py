@@ -127,10 +127,11 @@ def _tell(numbers: Any, watch: Watch) -> None:
 
 def _result(future: Future[Summary], look: Callable[[], None]) -> Summary:
     while True:
+        look()
         try:
             return future.result(_POLL)
         except TimeoutError:
-            look()
+            continue
 
 
 def _hand_on(folder: Path, found: Summary, sink: Sink, *, first: bool) -> None:
