@@ -44,8 +44,8 @@ class PackedSource(LogSource):
         self._size = path.stat().st_size
         self._folder = tempfile.TemporaryDirectory(prefix="typedcan-")
         self._log: LogSource | None = None
+        copy = Path(self._folder.name, path.stem or "log")
         try:
-            copy = Path(self._folder.name, path.stem or "log")
             self._problem = self._unpack(copy)
             self._log = reader(copy, block_size)
         except LogError as error:
