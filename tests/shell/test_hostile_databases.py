@@ -55,7 +55,7 @@ def test_what_is_made_of_the_file_is_told_line_by_line(folder: Path) -> None:
         ["load", "esc.dbc", "--bit-rate", "500000", "--plot", "x.svg"],
         ["generate", "--from", "esc.dbc", "--out", "out"],
         ["import", "esc.dbc", "--out", "spec"],
-        ["lint", "spec"],
+        ["lint", "spec", "--profile", "house"],
         ["lint", "esc.dbc", "--fix"],
     )
     assert "bus, 500 kbit/s" in load
