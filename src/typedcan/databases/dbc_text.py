@@ -36,7 +36,9 @@ _SELECTORS_OF_A_LETTER = 8
 _MOST_DIGITS = 9
 
 
-_QUOTED_OR_COMMENT = re.compile(r'"(?:[^"\\]++|\\"|\\)*+"|//[^\n]*|"')
+# No possessive quantifiers: the first releases of Python 3.11 take them wrongly, and each of these
+# can match in one way only.
+_QUOTED_OR_COMMENT = re.compile(r'"[^"\\]*(?:\\(?:"|(?!"))[^"\\]*)*"|//[^\n]*|"')
 _PLACED = re.compile(
     r"\b(?:BO_\s+(\d+)\s+(\w+)|SG_\s+(\w+)(?:\s+\w+)?)\s*:(?:\s*(\d+)(?:\s*\|\s*(\d+))?)?"
 )
@@ -49,7 +51,7 @@ _VALUE = re.compile(r'\bBA_\s+("[^"]*")[^;]*?("[^"]*")?\s*;')
 _SELECTORS = re.compile(r"\bSG_MUL_VAL_[^;]*;")
 _RANGE = re.compile(r"(\d{1,20})\s*-\s*(\d{1,20})")
 UNFINISHED_CODES = re.compile(
-    r'(?m)^[ \t]*VAL_\s+\d+\s+\w+(?:\s+-?\d+\s+"(?:[^"\\]|\\.)*+")++\s*\Z'
+    r'(?m)^[ \t]*VAL_\s+\d+\s+\w+(?:\s+-?\d+\s+"[^"\\]*(?:\\.[^"\\]*)*")+\s*\Z'
 )
 """Codes at the end of a file that lack their semicolon only."""
 
