@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dbcspec.config import Config
@@ -9,7 +10,8 @@ from dbcspec.errors import Fault
 from dbcspec.lint.options import Options
 from dbcspec.lint.rule import Finding, Subject
 from dbcspec.lint.run import lint_with
-from dbcspec.spec.compiled import compile_spec
+from dbcspec.spec.compiled import Compiled, compile_rows, compile_spec
+from dbcspec.spec.readings import Choice
 from dbcspec.spec.rows import Spec
 from typedcan.model.checksums.registry import Given
 from typedcan.model.protocol import Protocol
@@ -52,6 +54,21 @@ def load(config: Config, choice: str = "") -> Project:
     such.
     """
     compiled = compile_spec(config.root / config.spec, config.spec, config.name, choice)
+    return _of(config, compiled)
+
+
+def editions_of(project: Project) -> Iterator[tuple[str, Project]]:
+    """Each edition of a project's spec by its name, from the rows that were read already.
+
+    Raises `SpecError` with every fault that prevents one.
+    """
+    for edition in project.printed.editions:
+        choice = Choice(edition=edition.name)
+        compiled = compile_rows(project.printed, project.config.name, choice)
+        yield edition.name, _of(project.config, compiled)
+
+
+def _of(config: Config, compiled: Compiled) -> Project:
     return Project(
         config, compiled.spec, compiled.protocol, compiled.errata_faults, compiled.printed
     )

@@ -79,12 +79,16 @@ def given_algorithms(options: argparse.Namespace, protocol: Protocol) -> Given:
 
 
 def load_sound_project(options: argparse.Namespace, choice: str = "") -> Project:
+    """The project, if the linter has nothing against it; raises as `sound`."""
+    return sound(options, load_project(options, choice))
+
+
+def sound(options: argparse.Namespace, project: Project) -> Project:
     """The project, if the linter has nothing against it; raises `FindingsError`.
 
     A spec of the profile foreign, as `dbcspec import` makes it, may have what its file has: that is
     noted, as long as a DBC can say it; else raises `ReadError`.
     """
-    project = load_project(options, choice)
     every = project.findings(given_algorithms(options, project.protocol))
     findings = [each for each in every if each.level != "note"]
     if findings and project.spec.standard.profile != FOREIGN:

@@ -24,11 +24,12 @@ from dbcspec.commands.common import (
     given_algorithms,
     load_sound_project,
     project_option,
+    sound,
 )
 from dbcspec.emit.stub_names import package_name
 from dbcspec.errors import StaleArtifactError
 from dbcspec.matrix.write import not_in_matrix
-from dbcspec.project import Project
+from dbcspec.project import Project, editions_of
 from dbcspec.read.doors import open_side
 from dbcspec.spec.variants import with_variants
 from dbcspec.trial import try_package
@@ -112,8 +113,7 @@ def _generate(options: argparse.Namespace) -> int:
 
 def _editions(options: argparse.Namespace, project: Project) -> dict[str, Protocol]:
     """Each edition of the project's spec; raises `FindingsError` for what is wrong in one."""
-    names = [edition.name for edition in project.printed.editions]
-    return {name: load_sound_project(options, name).protocol for name in names}
+    return {name: sound(options, each).protocol for name, each in editions_of(project)}
 
 
 def _stale_lines(stale: Stale) -> Iterator[str]:

@@ -28,7 +28,6 @@ class ReadErratum:
     change: tuple[ChangeRow, ...]
     where: Location
     change_where: Location
-    usual: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,8 +123,7 @@ def errata_in_force(spec: Spec, choice: Choice) -> tuple[ReadErratum, ...]:
 def _in_force(spec: Spec, choice: Choice) -> Iterator[ReadErratum]:
     taken = alternatives_of(spec, choice)
     for erratum in spec.errata:
-        alternative = taken.get(erratum.id)
-        yield _alternative(erratum, alternative) if alternative else _usual(erratum)
+        yield _read_as(erratum, taken.get(erratum.id) or erratum)
     for edition in editions_of(spec, choice.edition):
         yield from map(_usual, edition.errata)
 
@@ -146,27 +144,18 @@ def with_editions(spec: Spec, choice: Choice) -> Spec:
 
 
 def _usual(row: ErratumRow) -> ReadErratum:
-    return ReadErratum(
-        id=row.id,
-        row=row,
-        reading=row.reading,
-        because=row.because,
-        source=row.source,
-        change=row.change,
-        where=row.where_is("id"),
-        change_where=row.where_is("change"),
-    )
+    return _read_as(row, row)
 
 
-def _alternative(row: ErratumRow, other: AlternativeRow) -> ReadErratum:
+def _read_as(row: ErratumRow, reading: ErratumRow | AlternativeRow) -> ReadErratum:
+    """The erratum in its own reading, or in one of its alternatives."""
     return ReadErratum(
-        id=other.id,
+        id=reading.id,
         row=row,
-        reading=other.reading,
-        because=other.because,
-        source=other.source,
-        change=other.change,
-        where=other.where_is("id"),
-        change_where=other.where_is("change"),
-        usual=False,
+        reading=reading.reading,
+        because=reading.because,
+        source=reading.source,
+        change=reading.change,
+        where=reading.where_is("id"),
+        change_where=reading.where_is("change"),
     )

@@ -6,11 +6,11 @@ import argparse
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from pathlib import Path
 
 from typedcan.commands.conform_bus import judged_by_hearing
 from typedcan.commands.conform_choice import Choice
 from typedcan.commands.conform_reports import Judged, Reports
+from typedcan.commands.log_options import size_of
 from typedcan.judge import Judgement, Rule, Severity, Status, Verdict, rules_for
 from typedcan.judge.tolerance import SHARED
 from typedcan.logs.part import window_of
@@ -131,7 +131,7 @@ def _is_on_bus(given: argparse.Namespace, more: Sequence[str]) -> bool:
 
 
 def _judged_logs(given: argparse.Namespace, choice: Choice) -> list[Judged]:
-    sizes = [_size(log) for log in given.logs]
+    sizes = [size_of(log) for log in given.logs]
     window = window_of(given.start, given.end, given.recorded_in)
     progress = Progress(sum(sizes))
     judged: list[Judged] = []
@@ -149,13 +149,6 @@ def _judged_logs(given: argparse.Namespace, choice: Choice) -> list[Judged]:
     finally:
         progress.clear()
     return judged
-
-
-def _size(log: Path) -> int:
-    try:
-        return log.stat().st_size
-    except OSError as error:
-        raise CommandError(f"{log}: {error.strerror}") from None
 
 
 def _status(judged: Sequence[Judged], choice: Choice) -> int:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
+from typedcan.commands.log_options import size_of
 from typedcan.commands.log_protocol import log_protocol
 from typedcan.commands.tool import Tool, dbc_of
 from typedcan.logs.convert import convert_logs
@@ -17,7 +16,7 @@ from typedcan.logs.progress import Progress
 from typedcan.logs.raster import raster_step
 from typedcan.logs.transfers.tables import TransferTables
 from typedcan.shell.algorithms import algorithms_of
-from typedcan.shell.console import CommandError, note, say
+from typedcan.shell.console import note, say
 from typedcan.shell.printing import printable_json
 
 DAMAGED = 3
@@ -28,7 +27,7 @@ def run(tool: Tool, given: argparse.Namespace) -> int:
     """Convert, print the summary, and return the exit status."""
     chosen = _options(given)
     protocol = log_protocol(tool, given)
-    progress = Progress(_size(given.logs))
+    progress = Progress(sum(map(size_of, given.logs)))
     try:
         target, summary = convert_logs(
             given.logs,
@@ -48,16 +47,6 @@ def run(tool: Tool, given: argparse.Namespace) -> int:
     tables = f", tables: {len(summary.rows)}" if target.folder else ""
     note(f"wrote {target.path}{tables}")
     return DAMAGED if summary.damage else 0
-
-
-def _size(logs: Sequence[Path]) -> int:
-    total = 0
-    for log in logs:
-        try:
-            total += log.stat().st_size
-        except OSError as error:
-            raise CommandError(f"{log}: {error.strerror}") from None
-    return total
 
 
 def _options(given: argparse.Namespace) -> Options:

@@ -6,7 +6,7 @@ import argparse
 from functools import partial
 from pathlib import Path
 
-from typedcan.commands.log_options import add_window_options, need
+from typedcan.commands.log_options import add_window_options, names, need
 from typedcan.commands.tool import Tool, add_protocol_options
 from typedcan.shell.command_line import Command, completing_files
 from typedcan.shell.console import count
@@ -57,7 +57,7 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         ("--signals", "these signals only; Speed means every signal that ends in _Speed"),
     ):
         parser.add_argument(
-            name, help=text, type=_names, action="extend", default=[], metavar="NAME,..."
+            name, help=text, type=names, action="extend", default=[], metavar="NAME,..."
         )
     add_window_options(parser)
     values = parser.add_mutually_exclusive_group()
@@ -73,10 +73,6 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
             "last value, nothing once it is older than 5 periods of its message"
         ),
     )
-
-
-def _names(text: str) -> list[str]:
-    return [name for name in text.split(",") if name]
 
 
 def _run(tool: Tool, options: argparse.Namespace) -> int:

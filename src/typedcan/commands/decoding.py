@@ -9,7 +9,7 @@ from itertools import islice
 from typedcan.commands.shown import shown_of
 from typedcan.commands.tool import Tool
 from typedcan.commands.transcript import Transcript
-from typedcan.logs.part import LogPart, TimeError, Window, window_of
+from typedcan.logs.part import LogPart, Window, window_of
 from typedcan.logs.replayed import frames_of
 from typedcan.shell.console import CommandError, note
 
@@ -34,9 +34,8 @@ def run(tool: Tool, options: argparse.Namespace) -> int:
             note(transcript.summary())
             return 0
     log = _decode(options, window, transcript)
-    if not log.found and not window.is_open and log.damage is None and log.spans():
-        raise TimeError(f"{log.path}: no frame in this part; the log goes from {log.spans()}")
-    if passed := log.source.passed:
+    log.check_found()
+    if passed := log.passed:
         counts = ", ".join(f"{what} {many:,}" for what, many in passed.most_common())
         note(f"no frames on the bus: {counts}")
     if log.damage is not None:

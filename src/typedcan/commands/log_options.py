@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from importlib.util import find_spec
+from pathlib import Path
 
 from typedcan.shell.console import CommandError
 
@@ -22,6 +23,19 @@ def add_window_options(parser: argparse.ArgumentParser) -> None:
         metavar="ZONE",
         help="time zone of the recorder, such as Asia/Shanghai or UTC (default: this computer's)",
     )
+
+
+def size_of(log: Path) -> int:
+    """Bytes of a log; raises `CommandError` where there is none."""
+    try:
+        return log.stat().st_size
+    except OSError as error:
+        raise CommandError(f"{log}: {error.strerror}") from None
+
+
+def names(text: str) -> list[str]:
+    """The names in a text, with commas between them; as the type of an argument."""
+    return [name for name in text.split(",") if name]
 
 
 def need(*packages: str) -> None:

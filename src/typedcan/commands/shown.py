@@ -9,11 +9,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from typedcan.commands.values import message_named, value_of
+from typedcan.commands.log_options import names
+from typedcan.commands.values import find_field, message_named, value_of
 from typedcan.model.signal_state import SignalState
 from typedcan.shell.console import CommandError
 from typedcan.wire.codec import Codec
-from typedcan.wire.fields import Field, FilledField
+from typedcan.wire.fields import FilledField
 from typedcan.wire.link import Fault, Received
 from typedcan.wire.message import Message
 
@@ -124,7 +125,7 @@ def add_filters(parser: argparse.ArgumentParser) -> None:
         ("--nodes", "NODE,...", "what these nodes send"),
     ):
         group.add_argument(
-            name, type=_names, action="extend", default=[], metavar=metavar, help=text
+            name, type=names, action="extend", default=[], metavar=metavar, help=text
         )
     group.add_argument(
         "--where",
@@ -170,7 +171,7 @@ def condition_of(text: str, kinds: Sequence[type[Message]]) -> Condition:
     wanted: dict[type[Message], tuple[str, Any]] = {}
     problem: CommandError | None = None
     for kind in kinds:
-        field = _field(kind, field_name)
+        field = find_field(kind, field_name)
         if field is None:
             continue
         try:
@@ -180,14 +181,3 @@ def condition_of(text: str, kinds: Sequence[type[Message]]) -> Condition:
     if not wanted:
         raise problem or CommandError(f"no message has a field {field_name!r}")
     return Condition(_OPERATORS[sign], wanted, sign in _ORDERING)
-
-
-def _field(kind: type[Message], name: str) -> Field | None:
-    for field in kind.FIELDS.values():
-        if name.casefold() in (field.name.casefold(), field.dbc_name.casefold()):
-            return field
-    return None
-
-
-def _names(text: str) -> list[str]:
-    return [name for name in text.split(",") if name]

@@ -68,12 +68,19 @@ def _has_to_be_given(kind: type[Message], field: Field) -> str:
     )
 
 
-def _field_named(kind: type[Message], name: str) -> Field:
+def find_field(kind: type[Message], name: str) -> Field | None:
+    """The field of a name in any case, its own or that of the database; None where none has it."""
     for field in kind.FIELDS.values():
         if name.casefold() in (field.name.casefold(), field.dbc_name.casefold()):
-            if isinstance(field, FilledField):
-                raise CommandError(f"{kind.NAME}.{field.name} is filled in when sending")
             return field
+    return None
+
+
+def _field_named(kind: type[Message], name: str) -> Field:
+    if field := find_field(kind, name):
+        if isinstance(field, FilledField):
+            raise CommandError(f"{kind.NAME}.{field.name} is filled in when sending")
+        return field
     known = [field.name for field in kind.FIELDS.values() if not isinstance(field, FilledField)]
     raise CommandError(_unknown(f"{kind.NAME} has no field {shown(name)}", name, known))
 

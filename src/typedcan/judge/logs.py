@@ -8,7 +8,7 @@ from pathlib import Path
 
 from typedcan.judge.judge import Judge
 from typedcan.judge.judgement import Judgement
-from typedcan.logs.part import ALL, LogPart, TimeError, Window
+from typedcan.logs.part import ALL, LogPart, Window
 
 _BLOCK = 1 << 17
 """Frames in a chunk: enough that a message's share of it is worth a call per rule."""
@@ -47,8 +47,7 @@ def judge_log(
             frames += len(block)
             if watch:
                 watch(source.position, frames)
-        if not frames and not window.is_open and source.damage is None and source.spans():
-            raise TimeError(f"{path}: no frame in this part; the log goes from {source.spans()}")
+        source.check_found()
         damage = () if source.damage is None else (str(source.damage),)
     with path.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()

@@ -7,6 +7,7 @@ recorded them, others by UTC. Where it matters, ``recorded_in`` says which zone'
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, tzinfo
@@ -196,9 +197,9 @@ class LogPart(LogSource):
         return self._log.position
 
     @property
-    def source(self) -> LogSource:
-        """What reads the file."""
-        return self._log
+    def passed(self) -> Counter[str]:
+        """As the log has it."""
+        return self._log.passed
 
     def close(self) -> None:
         """Close the file."""
@@ -222,6 +223,10 @@ class LogPart(LogSource):
             if shift:
                 block = replace(block, timestamp=block.timestamp + shift)
             self.last = np.fmax(self.last, float(block.timestamp.max()))
+            if self._window.is_open:  # also what has a time that is no number
+                self.found = True
+                yield block
+                continue
             kept = (block.timestamp >= low) & (block.timestamp <= high)
             if kept.all():
                 self.found = True
@@ -246,6 +251,12 @@ class LogPart(LogSource):
                 f"{self.path}: the log's times count from its begin: give seconds, not a date"
             )
         return _since_1970(limit.date, self.clock.zone) - self.clock.origin + self._later
+
+    def check_found(self) -> None:
+        """Raise `TimeError` where a sound log has frames, and none of them is in the window."""
+        spans = self.spans()
+        if spans and not self.found and not self._window.is_open and self.damage is None:
+            raise TimeError(f"{self.path}: no frame in this part; the log goes from {spans}")
 
     def spans(self) -> str:
         """From when to when the log goes, for people; empty where it has no frame."""

@@ -174,7 +174,7 @@ def read_rows(
         summary.outside = log.spans() if summary.begin is None else ""
         if log.clock.text:
             summary.begun.append(f"{path.name} began {log.clock.text}")
-        summary.passed.update(log.source.passed)
+        summary.passed.update(log.passed)
     for shape in shapes:
         _hand_on(shape.finish(), rows, summary)
         summary.add_problems(shape.problems)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from typedcan.model.protocol import Protocol, Variant
+from typedcan.model.variants import changes_of
 
 
 def edition_of(protocol: Protocol) -> str:
@@ -64,5 +64,5 @@ def _changes(protocol: Protocol) -> Iterator[tuple[Variant, list[str], Any]]:
     """What editions say otherwise than the usual readings."""
     for each in protocol.variants:
         if each.is_edition:
-            for path, value in json.loads(each.changes):
+            for path, value in changes_of(each):
                 yield each, path.split("/"), value

@@ -35,6 +35,11 @@ def changes_between(usual: Protocol, other: Protocol) -> str:
     )
 
 
+def changes_of(variant: Variant) -> Iterator[Change]:
+    """What a choice changes: paths with their new values, None for what it takes away."""
+    yield from map(tuple, json.loads(variant.changes))
+
+
 def choose(protocol: Protocol, names: Iterable[str]) -> Protocol:
     """The protocol in the readings and the edition of these names.
 
@@ -50,7 +55,7 @@ def choose(protocol: Protocol, names: Iterable[str]) -> Protocol:
     facts, usual = _facts(protocol), _facts(protocol)
     made: dict[str, tuple[str, Any]] = {}
     for each in _in_order(protocol, chosen):
-        for path, value in json.loads(each.changes):
+        for path, value in changes_of(each):
             name, before = made.get(path, ("", value))
             new = value
             if path.rpartition("/")[2] == _MARKS:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 
 from typedcan.judge.chunk import Chunk, LogEnd
 from typedcan.judge.findings import Findings
 from typedcan.judge.rule import Watcher
 from typedcan.model import protocol as model
-from typedcan.model.variants import choose
+from typedcan.model.variants import changes_of, choose
 
 Making = Callable[[Findings], Watcher]
 
@@ -75,7 +74,7 @@ def readings_of(protocol: model.Protocol, fact: str) -> Iterator[model.Message]:
     if protocol.chosen:
         return
     for variant in protocol.variants:
-        paths = [path.split("/") for path, _ in json.loads(variant.changes)]
+        paths = [path.split("/") for path, _ in changes_of(variant)]
         changed = {path[1] for path in paths if path[0] == "messages" and fact in path[2:3]}
         if changed and not variant.is_edition:
             other = choose(protocol, [variant.name])

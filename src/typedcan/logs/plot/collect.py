@@ -12,7 +12,7 @@ from typedcan.logs.checks import Checks, taken
 from typedcan.logs.columns import MessageColumns, SignalInfo
 from typedcan.logs.decode import Decoder
 from typedcan.logs.frames import FrameBlock
-from typedcan.logs.part import ALL, LogPart, TimeError, Window
+from typedcan.logs.part import ALL, LogPart, Window
 from typedcan.logs.plan import Mode, SelectionError
 from typedcan.logs.plot.heat import HeatMap
 from typedcan.logs.plot.model import Band, Curve, Heat, Plot
@@ -93,8 +93,7 @@ def read_plot(path: Path, request: PlotRequest, watch: Watch | None = None) -> P
             collection.add(checks.take(decoder.decode(block)).messages)
         faults = checks.finish()
         damage = log.damage
-        if not clock.is_shown and not request.window.is_open and damage is None and log.spans():
-            raise TimeError(f"{path}: no frame in this part; the log goes from {log.spans()}")
+        log.check_found()
     curves, bands, heats = collection.finish()
     return Plot(
         title=printable(path.name),
@@ -131,7 +130,7 @@ class _Clock:
         self.origin = 0.0
         self.start = 0.0
         self.end = 0.0
-        self._begun = self.is_shown = False
+        self._begun = self._is_shown = False
 
     def watched(self, log: LogPart, watch: Watch | None) -> Iterator[FrameBlock]:
         """The blocks of the log; notes when it begins, and says how far it is."""
@@ -148,9 +147,9 @@ class _Clock:
     def shown(self, block: FrameBlock) -> None:
         """Note that these frames are shown."""
         first, last = float(block.timestamp.min()), float(block.timestamp.max())
-        if not self.is_shown:
+        if not self._is_shown:
             self.start, self.end = first - self.origin, last - self.origin
-            self.is_shown = True
+            self._is_shown = True
         self.start = min(self.start, first - self.origin)
         self.end = max(self.end, last - self.origin)
 

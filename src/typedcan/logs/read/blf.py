@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from collections import Counter
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
@@ -12,7 +11,7 @@ from typedcan.logs.frames import FrameBlock
 from typedcan.logs.read.blf_containers import BrokenLog, batches, containers
 from typedcan.logs.read.blf_stream import ObjectStream
 from typedcan.logs.read.blocks import reblock
-from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogSource, Start
+from typedcan.logs.read.source import BLOCK_SIZE, Damage, FileSource, Start
 
 _HEADER = struct.Struct("<4sL8sQ16x8H16x")  # signature, header size, writer, file size, start
 _PYTHON_CAN = bytes([5, 0, 0, 0, 2, 6, 8, 1])
@@ -23,8 +22,8 @@ _BATCH = 2**19
 """Bytes that are looked through together: few calls for each, and they stay in the cache."""
 
 
-class BlfSource(LogSource):
-    """A BLF log, as python-can reads it: other objects than CAN frames are passed over.
+class BlfSource(FileSource):
+    """A BLF log: objects that are no frame on the bus are passed over, some of them counted.
 
     Parameters
     ----------
@@ -40,28 +39,8 @@ class BlfSource(LogSource):
     """
 
     def __init__(self, path: Path, block_size: int = BLOCK_SIZE) -> None:
-        self.path = path
-        self.damage: Damage | None = None
-        self._block_size = block_size
+        super().__init__(path, block_size)
         self._file = path.open("rb")
-        self._size = path.stat().st_size
-        self._position = 0
-        self._passed: Counter[str] = Counter()
-
-    @property
-    def passed(self) -> Counter[str]:
-        """What in the file is no frame on the bus, by kind."""
-        return self._passed
-
-    @property
-    def size(self) -> int:
-        """Bytes of the file."""
-        return self._size
-
-    @property
-    def position(self) -> int:
-        """Bytes of the file that have been read so far."""
-        return self._position
 
     def close(self) -> None:
         """Close the file."""

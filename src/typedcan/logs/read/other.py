@@ -27,7 +27,7 @@ from typedcan.logs.read.frame import (
     REMOTE,
     SENT,
 )
-from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogError, LogSource
+from typedcan.logs.read.source import BLOCK_SIZE, Damage, FileSource, LogError
 
 _SQLITE = b"SQLite format 3\0"
 _DAMAGE = (
@@ -45,7 +45,7 @@ _DAMAGE = (
 )
 
 
-class OtherSource(LogSource):
+class OtherSource(FileSource):
     """A log of a kind that python-can or one of its plugins reads, such as SQLite.
 
     Parameters
@@ -62,11 +62,7 @@ class OtherSource(LogSource):
     """
 
     def __init__(self, path: Path, block_size: int = BLOCK_SIZE) -> None:
-        self.path = path
-        self.damage: Damage | None = None
-        self._block_size = block_size
-        self._size = path.stat().st_size
-        self._position = 0
+        super().__init__(path, block_size)
         self._count = 0
         self._reader: MessageReader | None = None
         try:
@@ -76,16 +72,6 @@ class OtherSource(LogSource):
                 known = ", ".join(sorted(can.io.MESSAGE_READERS))
                 raise LogError(f"{path}: no log of a known kind; known are {known}") from None
             self._broke(error)
-
-    @property
-    def size(self) -> int:
-        """Bytes of the file."""
-        return self._size
-
-    @property
-    def position(self) -> int:
-        """0 until all of the file has been read: python-can does not say how far it is."""
-        return self._position
 
     def close(self) -> None:
         """Close the file."""
@@ -116,7 +102,7 @@ class OtherSource(LogSource):
         except _DAMAGE as error:
             self._broke(error)
         else:
-            self._position = self._size
+            self._position = self._size  # before, python-can does not say how far it is
 
     def _broke(self, error: Exception) -> None:
         where = f"frame {self._count + 1}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -13,10 +12,10 @@ from typedcan.logs.read.columns import Columns
 from typedcan.logs.read.frame import Frame
 from typedcan.logs.read.pcap_blocks import BrokenCapture, Interface, Packet, packets
 from typedcan.logs.read.pcap_frames import LINKS, frame_of
-from typedcan.logs.read.source import BLOCK_SIZE, Damage, LogError, LogSource
+from typedcan.logs.read.source import BLOCK_SIZE, Damage, FileSource, LogError
 
 
-class PcapSource(LogSource):
+class PcapSource(FileSource):
     """A capture of SocketCAN. What it holds of other networks is passed over.
 
     Parameters
@@ -35,12 +34,7 @@ class PcapSource(LogSource):
     """
 
     def __init__(self, path: Path, block_size: int = BLOCK_SIZE) -> None:
-        self.path = path
-        self.damage: Damage | None = None
-        self._block_size = block_size
-        self._size = path.stat().st_size
-        self._position = 0
-        self._passed: Counter[str] = Counter()
+        super().__init__(path, block_size)
         self._check_network()
         self._file = path.open("rb")
 
@@ -56,21 +50,6 @@ class PcapSource(LogSource):
                 "capture the CAN interface itself, such as can0"
             )
 
-    @property
-    def passed(self) -> Counter[str]:
-        """What in the file is no frame on the bus, by kind."""
-        return self._passed
-
-    @property
-    def size(self) -> int:
-        """Bytes of the file."""
-        return self._size
-
-    @property
-    def position(self) -> int:
-        """Bytes of the file that have been read so far."""
-        return self._position
-
     def close(self) -> None:
         """Close the file."""
         self._file.close()
@@ -85,11 +64,9 @@ class PcapSource(LogSource):
             yield columns.block(channels.known)
 
     def _frames(self, channels: Channels) -> Iterator[tuple[Frame, int]]:
-        count = 0
         try:
             for packet in packets(self._file):
                 self._position = min(packet.end, self._size)
-                count += 1
                 if isinstance(packet, Interface):
                     continue
                 frame = self._frame(packet)

@@ -112,3 +112,43 @@ class LogSource(Protocol):
     ) -> None:
         """Close the file."""
         self.close()
+
+
+class FileSource(LogSource):
+    """What readers of a file have in common: how far they are, and what they passed over.
+
+    Parameters
+    ----------
+    path
+        The log.
+    block_size
+        Frames in a block.
+
+    Raises
+    ------
+    OSError
+        There is no such file.
+    """
+
+    def __init__(self, path: Path, block_size: int) -> None:
+        self.path = path
+        self.damage: Damage | None = None
+        self._block_size = block_size
+        self._size = path.stat().st_size
+        self._position = 0
+        self._passed: Counter[str] = Counter()
+
+    @property
+    def passed(self) -> Counter[str]:
+        """What in the file is no frame on the bus, by kind."""
+        return self._passed
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file."""
+        return self._size
+
+    @property
+    def position(self) -> int:
+        """Bytes of the file that have been read so far."""
+        return self._position

@@ -14,13 +14,13 @@ from typedcan.model.transfer import Numbering, Pace
 from typedcan.model.transfers.cycle import NUMBER_BITS, NUMBERS
 from typedcan.model.transfers.parts import Parts
 from typedcan.model.transfers.recognition import (
-    SLOW,
     Evidence,
     Said,
     agreeing,
     both,
     candidates_of,
     needed,
+    slow_step,
     told_apart,
 )
 
@@ -48,9 +48,7 @@ class Recognised:
         """How often cycles came in another reading than those before."""
         self._candidates = candidates_of(parts) if recognise else ()
         self._differ = told_apart(self._candidates) if self._candidates else frozenset[str]()
-        periods = [message.period for message in parts.messages]
-        slow = SLOW * max(filter(None, periods), default=0) / 1000
-        self._evidence = Evidence(self._differ, slow)
+        self._evidence = Evidence(self._differ, slow_step(parts))
         self._own = 0
         self._names = ("",) * len(self._candidates[0].about if self._candidates else ())
         self._last: tuple[NDArray[np.int64], NDArray[np.float64]] | None = None

@@ -10,12 +10,12 @@ from typing import Any
 from typedcan.model.transfers.kind import Problem, ProblemKind, Rules, whole
 from typedcan.model.transfers.parts import Parts
 from typedcan.model.transfers.recognition import (
-    SLOW,
     Candidate,
     Evidence,
     agreeing,
     both,
     candidates_of,
+    slow_step,
     told_apart,
 )
 from typedcan.model.transfers.registry import KINDS
@@ -65,8 +65,7 @@ class Recognising(Rules):
         self._own = candidates[0].parts.messages[0].name
         self._name = candidates[0].parts.transfer.name
         self._first = candidates[0].parts.transfer
-        periods = [message.period for message in candidates[0].parts.messages]
-        self._slow = SLOW * max(filter(None, periods), default=0) / 1000
+        self._slow = slow_step(candidates[0].parts)
         self._differ = told_apart(candidates)
         self._best = 0
         self._held: list[Problem] = []

@@ -8,7 +8,6 @@ Live nodes and columns go by the same evidence, and by the same candidates.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -18,7 +17,7 @@ from typing import Any
 from typedcan.model.protocol import Protocol
 from typedcan.model.transfer import Numbering, Pace, Transfer
 from typedcan.model.transfers.parts import Parts
-from typedcan.model.variants import erratum_of
+from typedcan.model.variants import changes_of, erratum_of
 
 _FACTS: Mapping[str, type[Enum]] = {"numbering": Numbering, "pace": Pace}
 """What frames tell of a transfer."""
@@ -26,7 +25,7 @@ _FACTS: Mapping[str, type[Enum]] = {"numbering": Numbering, "pace": Pace}
 _USUAL: Mapping[str, Enum] = {"numbering": Numbering.THROUGH, "pace": Pace.ALL_IN_PERIOD}
 """What a transfer has that says nothing of it."""
 
-SLOW = 0.75
+_SLOW = 0.75
 """Shares of a period from which on a step is one to the next period."""
 
 _FIRST: Mapping[Enum, int] = {Pace.ONE_A_PERIOD: 4, Numbering.THROUGH: 2}
@@ -87,6 +86,11 @@ class Said:
         self.other = value
         if self.times >= needed(value, self.known):
             self.known, self.times = value, 0
+
+
+def slow_step(parts: Parts) -> float:
+    """The step in seconds from which on it is one to the next period of the messages."""
+    return _SLOW * max(filter(None, (each.period for each in parts.messages)), default=0) / 1000
 
 
 def needed(value: Enum, known: Enum | None) -> int:
@@ -205,7 +209,7 @@ def _differences(protocol: Protocol, transfer: Transfer) -> dict[str, dict[str, 
         number = erratum_of(protocol, each.name)
         facts = {
             path.removeprefix(start): value
-            for path, value in json.loads(each.changes)
+            for path, value in changes_of(each)
             if path.startswith(start)
         }
         own = {
